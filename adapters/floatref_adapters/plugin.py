@@ -1,6 +1,7 @@
 """The plug-in through which `floatref` finds these adapters."""
 
 from collections.abc import Callable
+from typing import Any
 
 from floatref import Adapter, ProfileFormat, hookimpl
 from floatref_adapters.formats.arrow.adapter import ArrowIpc, Parquet
@@ -13,6 +14,12 @@ from floatref_adapters.formats.mdf4.adapter import Mdf4
 from floatref_adapters.formats.nmea.adapter import Nmea
 from floatref_adapters.formats.novatel.adapter import NovAtel
 from floatref_adapters.formats.tdms.adapter import Tdms
+from floatref_adapters.views import (
+    recording_to_pandas,
+    recording_to_xarray,
+    to_pandas,
+    to_xarray,
+)
 
 
 @hookimpl
@@ -28,3 +35,12 @@ def floatref_register_profile_formats(register: Callable[[ProfileFormat], None])
     """Register every format of profile files of this package."""
     register(Erd())
     register(ParquetProfile())
+
+
+@hookimpl
+def floatref_register_views(register: Callable[[str, Callable[[Any], Any]], None]) -> None:
+    """Register the tables behind `to_pandas` and `to_xarray` of profiles and recordings."""
+    register("profile_to_pandas", to_pandas)
+    register("profile_to_xarray", to_xarray)
+    register("recording_to_pandas", recording_to_pandas)
+    register("recording_to_xarray", recording_to_xarray)

@@ -21,14 +21,16 @@ if TYPE_CHECKING:
 def to_pandas(profile: Profile) -> "DataFrame":
     """Return ``profile`` as a frame with index `distance_m`, columns as in a Parquet file.
 
-    `attrs` holds interval_m, start_m, pipeline, settings and provenance. Raises InputError where
-    pandas is missing.
+    `attrs` holds `units` by column, interval_m, start_m, pipeline, settings and provenance. Raises
+    InputError where pandas is missing.
     """
     pandas = library("pandas", "to_pandas")
     columns = make_columns(profile, 0, profile.tracks[0].elevation.size)
     index = pandas.Index(columns.pop(DISTANCE), name=DISTANCE, copy=False)
     frame = pandas.DataFrame(columns, index=index, copy=False)
+    metres = (name for name in columns if name.endswith("_m"))
     frame.attrs = {
+        "units": {DISTANCE: "m", **dict.fromkeys(metres, "m")},
         "interval_m": profile.interval_m,
         "start_m": profile.start_m,
         "pipeline": profile.pipeline,

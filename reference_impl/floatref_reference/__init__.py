@@ -14,6 +14,7 @@ the response of a vehicle. The tree is their tables of contents:
 - `imine`: the observer with unknown inputs on a trailer, Imine et al., (1) to (20).
 - `beyond`: what the dissertation does not have, built from its equations.
 - `road_prior`: nor this, a smoother that knows the road as a process in distance.
+- `ride_measures`: measures that contracts pay by, from standards and public reports.
 
 Correct and readable come before fast. Loops are plain, symbols carry the names of the paper,
 filters and sums run in `numpy.longdouble`, the matrices of chapter 6, of the road prior and of the

@@ -17,10 +17,10 @@ missing. IRI is in m/km.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from floatref.values.display.views import Place, place_views
 from floatref.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from floatref.engine.automatic import process as process
     from floatref.engine.lookup import make_stage as make_stage
     from floatref.engine.lookup import pipeline as pipeline
     from floatref.engine.lookup import stage_names as stage_names
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from floatref.measures import high_pass as high_pass
     from floatref.measures import on_common_grid as on_common_grid
     from floatref.measures import short_interval_roughness as short_interval_roughness
+    from floatref.notebook import process as process
     from floatref.retrofit import AdaptiveCutOff as AdaptiveCutOff
     from floatref.retrofit import AdaptiveHighPass as AdaptiveHighPass
     from floatref.retrofit import HeightReflection as HeightReflection
@@ -174,7 +175,7 @@ _PUBLIC = {
     "pipeline": "engine.lookup",
     "pipeline_capabilities": "engine.run",
     "pipelines": "engine.run",
-    "process": "engine.automatic",
+    "process": "notebook",
     "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",
@@ -185,6 +186,19 @@ _PUBLIC = {
     "write_recording": "files",
 }
 __all__ = ["__version__", *_PUBLIC]
+
+# Methods of values, such as `Profile.plot`, that rooms above `values` carry out.
+place_views(
+    {
+        "profile_figure": Place("floatref.plots.profile_figure", "profile_figure"),
+        "profile_iri": Place("floatref.measures.valid_iri", "profile_iri"),
+        "profile_to_pandas": Place("floatref.notebook.tables", "profile_to_pandas"),
+        "profile_to_xarray": Place("floatref.notebook.tables", "profile_to_xarray"),
+        "recording_figure": Place("floatref.plots.recording_figure", "recording_figure"),
+        "recording_to_pandas": Place("floatref.notebook.tables", "recording_to_pandas"),
+        "recording_to_xarray": Place("floatref.notebook.tables", "recording_to_xarray"),
+    }
+)
 
 
 def __getattr__(name: str) -> Any:

@@ -19,7 +19,7 @@ from floatref_reference.road_slope.wheels import road_points
 TINY = 1e-30
 """Complex step: its square is nothing beside 1, so that no digits are lost."""
 TRIES = 5
-FEWEST_PASSES, MOST_PASSES = 7, 40
+FEWEST_PASSES, WHOLE, MOST_PASSES = 7, 10, 40
 SETTLED = 3e-4
 """Change of θ in rad."""
 
@@ -134,7 +134,8 @@ def least_squares(stretch: Stretch) -> Answer:
 
     Equation:
         Pass by pass a step, and then g_j, β_k and steps of o_k of the new unknowns, which the next
-        pass holds; until no θ changes by 0.3 mrad in the seventh pass or later, or forty are made
+        pass holds; half of the step after ten passes; until no θ changes by 0.3 mrad by a whole
+        step in the seventh pass or later, or forty are made
 
     Args:
         stretch: what is known; the work grows with the cube of its length.
@@ -144,7 +145,7 @@ def least_squares(stretch: Stretch) -> Answer:
     passes, change = 0, np.inf
     while passes < FEWEST_PASSES or (passes < MOST_PASSES and change >= SETTLED):
         step = full_step(x, stretch, held)
-        x = after_step(x, step, stretch, held)
+        x = after_step(x, step if passes < WHOLE else step / 2, stretch, held)
         passes, change = passes + 1, float(np.max(np.abs(by_name(step, N, K).pitch)))
         held = held_after(x, stretch, loosened(passes))
     return Answer(by_name(x, N, K), held, covariance(x, stretch, held), passes, change)

@@ -8,6 +8,14 @@ from floatref.version import __version__
 COMMANDS = {
     "process": ("floatref.cli.process:process", "turn a recording into a road profile"),
     "iri": ("floatref.cli.iri:iri", "IRI of a profile, whole and by segment"),
+    "roughness": (
+        "floatref.cli.roughness.command:roughness",
+        "MRI, HRI, Ride Number, localized roughness, sections",
+    ),
+    "straightedge": (
+        "floatref.cli.straightedge.command:straightedge",
+        "a straightedge and a profilograph on a profile",
+    ),
     "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
     "convert": ("floatref.cli.convert:convert", "write a profile in another format"),
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),

@@ -4,6 +4,7 @@ import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from math import floor
 from typing import Any
 
 import click
@@ -16,6 +17,8 @@ from floatref.files.document import plain
 
 PIPED_WIDTH = 240
 """Width of a table outside a terminal, in characters."""
+PERCENT_OF_VALID = "valid %"
+"""Heading of a column of `percent`."""
 
 
 def print_json(report: Mapping[str, Any]) -> None:
@@ -57,6 +60,19 @@ def print_table(
 def number(value: float, digits: int = 3) -> str:
     """Return ``value`` with ``digits`` decimals, a dash for NaN."""
     return f"{value:.{digits}f}" if value == value else "–"
+
+
+def percent(share: float) -> str:
+    """Return a ``share``, 0 to 1, in per cent, rounded down so that 100.0 means all of it."""
+    return number(floor(1000.0 * share) / 10.0, 1) if share == share else number(share)
+
+
+def print_areas(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print ``rows`` as a table, or one line where there is no area."""
+    if rows:
+        print_table(title, columns, rows)
+    else:
+        click.echo(f"{title}: 0 areas\n")
 
 
 @contextmanager

@@ -1,6 +1,5 @@
-"""The main job for users: a recording to a profile, by the pipeline named, or by the best one."""
+"""A recording to a profile, by the pipeline that is named, or by the best one."""
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -8,27 +7,10 @@ from typing import Any
 
 from floatref.engine.choosing import AUTO, BEST, Choice, choices_for
 from floatref.engine.plugins import plugins
-from floatref.engine.run import FloatrefWarning, Progress, Result, run
+from floatref.engine.run import Progress, Result, run
 from floatref.errors import InputError
 from floatref.interfaces.pipeline import OF_ALL, Pipeline
-from floatref.values.profile import Profile
 from floatref.values.recording import Recording
-
-
-def process(
-    recording: Recording, pipeline: str = AUTO, settings: Mapping[str, Any] | None = None
-) -> Profile:
-    """Return the profile of ``recording`` by ``pipeline``.
-
-    ``auto`` takes the pipeline that bears most, of those whose channels were recorded; the
-    profile's record says which, and why. ``settings`` replaces the pipeline's defaults by name.
-    Warns with `FloatrefWarning`. Raises InputError for a recording, pipeline or setting that cannot
-    be used and PluginError if two plug-ins answer the same point.
-    """
-    result = run_named_or_best(recording, pipeline, settings)
-    for line in result.warnings:
-        warnings.warn(line, FloatrefWarning, stacklevel=2)
-    return result.profile
 
 
 def run_named_or_best(

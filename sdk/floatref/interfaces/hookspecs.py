@@ -7,6 +7,7 @@ plug-ins that answer the same point of a pipeline stop the run.
 """
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from floatref.interfaces.adapter import Adapter
 from floatref.interfaces.drop_out import DropOut
@@ -38,6 +39,15 @@ def floatref_register_stages(register: Callable[[str, Callable[..., Stage]], Non
 @hookspec
 def floatref_register_pipelines(register: Callable[[Pipeline], None]) -> None:
     """Call ``register(pipeline)`` for every pipeline that the plug-in offers."""
+
+
+@hookspec
+def floatref_register_views(register: Callable[[str, Callable[[Any], Any]], None]) -> None:
+    """Call ``register(name, view)`` for every table of another library that the plug-in makes.
+
+    ``profile_to_pandas`` and ``profile_to_xarray`` are called with a `Profile`,
+    ``recording_to_pandas`` and ``recording_to_xarray`` with a `Recording`.
+    """
 
 
 @hookspec

@@ -47,13 +47,15 @@ def new_figure(
     Raises InputError if matplotlib is missing.
     """
     try:
+        import matplotlib.figure  # noqa: F401  # What follows may have been imported before.
         from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
+
+        from floatref.plots.shown_figure import ShownFigure
     except ImportError as error:
         raise InputError("drawing needs matplotlib; run: pip install 'floatref[plot]'") from error
     usual = [11.0] if columns == 1 else [8.0] * columns
     width = sum(widths or usual)
-    figure = Figure(figsize=(width, sum(heights) + 0.8), layout="constrained")
+    figure = ShownFigure(figsize=(width, sum(heights) + 0.8), layout="constrained")
     FigureCanvasAgg(figure)
     ratios = {"height_ratios": list(heights), "width_ratios": list(widths or usual)}
     axes = figure.subplots(rows, columns, sharex=shared, squeeze=False, gridspec_kw=ratios)

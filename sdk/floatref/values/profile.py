@@ -1,15 +1,33 @@
 """A profile: road elevation per wheel path at a constant distance interval."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray, frozen
+from floatref.values.display.html_table import html_table
+from floatref.values.display.iri_table import ProfileIri
+from floatref.values.display.short_text import (
+    NO_VALUE,
+    hint_at,
+    in_mm_or_m,
+    join_some,
+    percent,
+    range_text,
+    share_of,
+    shorten,
+)
+from floatref.values.display.views import view
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+    from xarray import Dataset
 
 SHORTEST_INTERVAL_M = 1e-5
 LONGEST_INTERVAL_M = 1000.0
@@ -17,7 +35,7 @@ FARTHEST_M = 1e10
 """Largest distance from the origin, in m: beyond it float64 is too coarse for an interval."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ProfileTrack:
     """Elevation in m of one wheel path, its validity, and its 1-σ in m where known.
 
@@ -59,10 +77,31 @@ class ProfileTrack:
         if self.sigma is not None and (self.sigma < 0).any():
             raise InputError(f"track {self.name}: sigma is below zero; give a standard deviation")
 
+    def __repr__(self) -> str:
+        """Return name, points and validity on one line."""
+        sigma = "" if self.sigma is None else ", with sigma"
+        return f"ProfileTrack({self.elevation.size} points, {self._short}{sigma})"
 
-@dataclass(frozen=True, eq=False)
+    @property
+    def _short(self) -> str:
+        return f"{shorten(self.name)} {percent(share_of(self.valid))} valid"
+
+    @property
+    def _cells(self) -> tuple[str, str, str, str]:
+        """Name, share that is valid, and of the valid points the elevations and usual sigma."""
+        heights = range_text(self.elevation[self.valid], "m")
+        known = np.zeros(0) if self.sigma is None else self.sigma[self.valid]
+        known = known[np.isfinite(known)]
+        sigma = f"{1000.0 * np.median(known):.3g} mm" if known.size else NO_VALUE
+        return shorten(self.name), percent(share_of(self.valid)), heights, sigma
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Profile:
-    """Point k of every track lies at ``start_m + k * interval_m`` on the axis of distance."""
+    """Point k of every track lies at ``start_m + k * interval_m`` on the axis of distance.
+
+    ``profile["left"]`` is a wheel path; ``in`` and iteration go by their names, as in a dict.
+    """
 
     interval_m: float
     tracks: tuple[ProfileTrack, ...]
@@ -106,5 +145,65 @@ class Profile:
         for track in self.tracks:
             if track.name == name:
                 return track
-        here = ", ".join(t.name for t in self.tracks)
-        raise InputError(f"track {name}: missing; the profile holds {here}")
+        here = ", ".join(self)
+        raise InputError(f"track {name}: missing; the profile holds {here}{hint_at(name, self)}")
+
+    def __getitem__(self, name: str) -> ProfileTrack:
+        """Return the wheel path called ``name``; InputError if it is missing."""
+        return self.track(name)
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names of the wheel paths."""
+        return (track.name for track in self.tracks)
+
+    def __repr__(self) -> str:
+        """Return length, interval, pipeline and validity of each wheel path, on one line."""
+        tracks = join_some([track._short for track in self.tracks])
+        return f"Profile({self._made}; {tracks})"
+
+    def _repr_html_(self) -> str:
+        header = ("wheel path", "valid", "elevation where valid", "median 1-σ where valid")
+        return html_table(f"Profile: {self._made}", header, [track._cells for track in self.tracks])
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
+    @property
+    def _made(self) -> str:
+        pipeline = shorten(self.pipeline) or "no pipeline named"
+        return f"{self.length_m:.2f} m every {in_mm_or_m(self.interval_m)}, {pipeline}"
+
+    def iri(self) -> ProfileIri:
+        """Return the IRI of the valid points of every wheel path in m/km, and that of all points.
+
+        ``profile.iri()["left"].valid_m_per_km`` is the mean over the share ``counted_share`` of
+        the road: all stretches of valid points of more than the 11 m that the car needs to start.
+        It is NaN without one. Raises InputError for an interval above 2 m.
+        """
+        return cast(ProfileIri, view("profile_iri")(self))
+
+    def plot(self) -> "Figure":
+        """Return a figure of elevation and short-interval roughness over the distance in m.
+
+        Lines are solid where points are valid and dotted where they are not; stretches in which
+        any wheel path is invalid are shaded. Raises InputError for an elevation beyond 1000 km,
+        and if matplotlib, of the extra ``floatref[plot]``, is missing.
+        """
+        return cast("Figure", view("profile_figure")(self))
+
+    def to_pandas(self) -> "DataFrame":
+        """Return a read-only frame with index `distance_m` in m.
+
+        Columns are `left_elevation_m`, `left_valid` and, if known, `left_sigma_m`, and so on for
+        every wheel path; `attrs` holds their `units`, and what made the profile. Raises InputError
+        if pandas, of the extra ``floatref[adapters]``, is missing.
+        """
+        return cast("DataFrame", view("profile_to_pandas")(self))
+
+    def to_xarray(self) -> "Dataset":
+        """Return a data set with dimensions `track` and `distance`, units as attributes.
+
+        Variables are `elevation` and `sigma` in m and `valid`. Raises InputError if xarray, of the
+        extra ``floatref[adapters]``, is missing.
+        """
+        return cast("Dataset", view("profile_to_xarray")(self))

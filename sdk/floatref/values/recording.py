@@ -1,8 +1,7 @@
 """A recording: the raw channels of one run and the geometry of the sensors."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import MappingProxyType
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,66 +11,25 @@ from floatref.values.arrays import FloatArray, frozen
 from floatref.values.axle_setup import AxleSetup
 from floatref.values.channels import ChannelId, channel_spec, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
+from floatref.values.display.html_table import html_table
+from floatref.values.display.short_text import join_some, percent, rate_text, share_of, shorten
+from floatref.values.display.views import view
+from floatref.values.installation import ORIGIN, Setup, TrackSetup, Vector, check_interval
 from floatref.values.scanning import first_where
 from floatref.values.vehicle_setup import VehicleSetup
 
-Vector = tuple[float, float, float]
-ORIGIN: Vector = (0.0, 0.0, 0.0)
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+    from xarray import Dataset
+
 ONLY_TRACK = "main"
 """Name of the wheel path of a recording in which no channel names one."""
-SHORTEST_INTERVAL_M = 1e-5
-LONGEST_INTERVAL_M = 10.0
+MOST_CHANNELS = 6
+"""Most channels of a recording that its line lists; its table has all of them."""
 
 
-def check_interval(interval_m: float, where: str) -> None:
-    """Raise InputError naming ``where`` unless a profile can be made at ``interval_m`` in m."""
-    if not SHORTEST_INTERVAL_M <= interval_m <= LONGEST_INTERVAL_M:
-        raise InputError(
-            f"{where} is {interval_m:g}; give the profile interval in m, between 0.00001 and 10"
-        )
-
-
-@dataclass(frozen=True)
-class TrackSetup:
-    """Where one wheel path's sensors sit, in m in body axes: ahead, to the left, up.
-
-    Attributes:
-        reference_point_m: the accelerometer, from one point of the vehicle.
-        laser_offset_m: the laser, from the accelerometer; (0.105, 0, 0) is 0.105 m ahead of it.
-    """
-
-    reference_point_m: Vector = ORIGIN
-    laser_offset_m: Vector = ORIGIN
-
-
-@dataclass(frozen=True)
-class Setup:
-    """Geometry of the installation and the profile interval, in m, and the vehicle if known.
-
-    ``vehicle`` is its model, for an estimate from its response; ``axles`` are where its wheels are.
-    """
-
-    profile_interval_m: float = 0.00508
-    gnss_antenna_offset_m: Vector = ORIGIN
-    tracks: Mapping[str, TrackSetup] = field(default_factory=dict)
-    vehicle: VehicleSetup | None = None
-    axles: AxleSetup | None = None
-
-    def __post_init__(self) -> None:
-        """Refuse an impossible interval; make the tracks read-only."""
-        check_interval(self.profile_interval_m, "setup.profile_interval_m")
-        object.__setattr__(self, "tracks", MappingProxyType(dict(self.tracks)))
-
-    def track(self, name: str) -> TrackSetup:
-        """Return where the sensors of wheel path ``name`` sit; at the vehicle point if unknown."""
-        return self.tracks.get(name, TrackSetup())
-
-    def axles_about(self, track: str) -> AxleSetup:
-        """Return the axles, or the usual ones about the accelerometer of ``track`` if unknown."""
-        return self.axles or AxleSetup.usual(self.track(track).reference_point_m[0])
-
-
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Channel:
     """Samples of one quantity, in its SI unit; NaN is a missing sample."""
 
@@ -133,8 +91,23 @@ class Channel:
         begin, end = self.span_s
         return (self.values.size - 1) / (end - begin) if end > begin else np.inf
 
+    def __repr__(self) -> str:
+        """Return name, size, rate and unit on one line."""
+        return f"Channel({self._short}, {self.values.size} samples in {self.unit or '1'})"
 
-@dataclass(frozen=True, eq=False)
+    @property
+    def _short(self) -> str:
+        return f"{shorten(str(self.id))} {rate_text(self.mean_rate_hz)}"
+
+    @property
+    def _cells(self) -> tuple[str, ...]:
+        """Name, unit, rate, samples and the share of them that is missing."""
+        missing = percent(share_of(np.isnan(self.values)))
+        rate = rate_text(self.mean_rate_hz)
+        return shorten(str(self.id)), self.unit, rate, str(self.values.size), missing
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Recording:
     """All channels of one run on one time base, and the setup they were taken with."""
 
@@ -179,9 +152,51 @@ class Recording:
             raise InputError(f"channel {missing}: missing; the recording holds {here}")
         return channel
 
+    @property
+    def duration_s(self) -> float:
+        """Time from the first sample of any channel to the last one, in s."""
+        begins, ends = zip(*(channel.span_s for channel in self.channels), strict=True)
+        return float(max(ends) - min(begins))
+
+    def __repr__(self) -> str:
+        """Return duration and channels with their mean rates, on one line."""
+        channels = join_some([channel._short for channel in self.channels], MOST_CHANNELS)
+        return f"Recording({self.duration_s:.2f} s; {channels})"
+
+    def _repr_html_(self) -> str:
+        made = shorten(f"{self.vendor} {self.model}".strip())
+        caption = f"Recording: {self.duration_s:.2f} s" + (f", {made}" if made else "")
+        header = ("channel", "unit", "mean rate", "samples", "missing")
+        return html_table(caption, header, [channel._cells for channel in self.channels])
+
+    def plot(self) -> "Figure":
+        """Return a figure with a panel for each quantity over the time in s.
+
+        Times at which a sample is missing are shaded. Raises InputError if matplotlib, of the
+        extra ``floatref[plot]``, is missing.
+        """
+        return cast("Figure", view("recording_figure")(self))
+
+    def to_pandas(self) -> "list[DataFrame]":
+        """Return read-only frames with index `time_s` in s, one for every clock.
+
+        Columns are `<channel>` or `<track>.<channel>`; `attrs` holds their `units`. Nothing is
+        resampled. Raises InputError if pandas, of the extra ``floatref[adapters]``, is missing.
+        """
+        return cast("list[DataFrame]", view("recording_to_pandas")(self))
+
+    def to_xarray(self) -> "Dataset":
+        """Return a data set with a dimension `time_1`, `time_2` … for every clock.
+
+        Variables are `<channel>` or `<track>.<channel>`, with their `units`. Raises InputError if
+        xarray, of the extra ``floatref[adapters]``, is missing.
+        """
+        return cast("Dataset", view("recording_to_xarray")(self))
+
 
 __all__ = [
     "ONLY_TRACK",
+    "ORIGIN",
     "AxleSetup",
     "Channel",
     "Clock",
@@ -190,6 +205,7 @@ __all__ = [
     "StampedClock",
     "TrackSetup",
     "UniformClock",
+    "Vector",
     "VehicleSetup",
     "check_interval",
 ]

@@ -56,7 +56,8 @@ def test_an_existing_picture_needs_overwrite(folder, ran, refused):
 
 
 def test_a_pipeline_without_a_filter_is_one_line_and_leaves_nothing(folder, refused):
-    line = refused("process", folder / "run", "--out", folder / "p", "--diagnostics")
+    given = ("process", folder / "run", "--out", folder / "p", "--pipeline", "temporal-basic")
+    line = refused(*given, "--diagnostics")
     assert "pipeline temporal-basic: has no filter with innovations" in line
     assert [path.name for path in folder.iterdir()] == ["run"]
 

@@ -35,6 +35,9 @@ def folder(tmp_path):
 def test_a_profile_directory_with_provenance(folder, ran):
     result = ran("process", folder / "run", "--out", folder / "profile")
     profile = read_profile(folder / "profile")
+    assert profile.pipeline == "road-prior-smoother"
+    reason = profile.provenance["chosen"]["reason"]
+    assert f"Pipeline road-prior-smoother, since {reason}" in result.output
     assert [track.name for track in profile.tracks] == ["left", "right"]
     assert profile.provenance["adapter"] == "recording"
     assert set(profile.provenance["sha256"]) == {p.name for p in (folder / "run").iterdir()}
@@ -44,10 +47,13 @@ def test_a_profile_directory_with_provenance(folder, ran):
 
 def test_json_holds_what_the_contract_says(folder, invoke):
     result = invoke(
-        "process", folder / "run" / "recording.json", "--out", folder / "p.csv", "--json"
+        *("process", folder / "run" / "recording.json", "--out", folder / "p.csv", "--json"),
+        *("--pipeline", "temporal-basic"),
     )
     report = json.loads(result.stdout)
-    assert list(report) == ["pipeline", "profile", "interval_m", "length_m", "tracks", "warnings"]
+    fields = ["pipeline", "reason", "profile", "interval_m", "length_m", "tracks", "warnings"]
+    assert list(report) == fields
+    assert report["reason"] is None
     assert [sorted(track) for track in report["tracks"]] == [
         ["invalid_m", "iri_m_per_km", "name"]
     ] * 2

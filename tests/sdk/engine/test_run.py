@@ -59,7 +59,7 @@ def test_the_profile_records_how_it_was_made(steady):
 )
 def test_a_setting_that_cannot_be_is_named(steady, settings, message):
     with pytest.raises(InputError) as error:
-        floatref.process(steady(), settings=settings)
+        floatref.process(steady(), "temporal-basic", settings)
     assert message in str(error.value)
 
 
@@ -106,11 +106,11 @@ class Vendor:
 
 def test_a_plugged_in_stage_takes_the_place_of_ours(steady, monkeypatch):
     recording = steady(height=0.3 + 1e-13 * np.cos(np.arange(4000.0)))
-    plain = floatref.process(recording)
+    plain = floatref.process(recording, "temporal-basic")
     loaded = plugins.Plugins()
     loaded.add(Vendor(), "vendor")
     monkeypatch.setattr(run, "plugins", lambda: loaded)
-    doubled = floatref.process(recording)
+    doubled = floatref.process(recording, "temporal-basic")
     np.testing.assert_allclose(
         doubled.tracks[0].elevation, 2.0 * plain.tracks[0].elevation, atol=1e-12
     )

@@ -17,8 +17,8 @@ from floatref import (
     answers,
     hookimpl,
 )
-from floatref.engine.plugins import Plugins
 from floatref.engine.automatic import process
+from floatref.engine.plugins import Plugins
 
 OWN = StageCall("RemoveMean", "elevation")
 THEIRS = StageCall("FromFirst", "elevation")

@@ -15,6 +15,9 @@ SETTLED_RAD = 3e-4
 LOOSEST, TIGHTER = 30.0, 0.5
 """The first passes take the springs for less sure than they are, each half as much as the one
 before: from a start without a road the sum of squares has other minima."""
+WHOLE_STEPS = 10
+"""Passes that make whole steps, and later ones half of each: a step leaves out second derivatives,
+and where they count, whole steps swing about the answer, each farther than the one before."""
 ALLOWED, MORE = 1.001, 1.0
 """The sum of squares may grow so much by a step: it is next to flat where it ends."""
 RANGES = {
@@ -91,7 +94,8 @@ def fit(stretch: Stretch) -> Fit:
             step = _step(stretch, rows)
         except np.linalg.LinAlgError:
             return Fit(stretch, y, bends, number, np.inf)
-        y = _go(stretch, y, step, float(rows.misfit @ rows.misfit), held)
+        part = step if number < WHOLE_STEPS else 0.5 * step
+        y = _go(stretch, y, part, float(rows.misfit @ rows.misfit), held)
         bends = renew_bends(y[stretch.layout.slope], stretch.model)
         changed, number = float(np.abs(step[stretch.layout.pitch]).max()), number + 1
     return Fit(stretch, y, bends, number, changed)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from floatref.errors import InputError
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
-from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH, Modes
+from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH, Modes, QuarterCar
 from floatref.values.arrays import FloatArray
 
 M_PER_KM = 1000.0
@@ -34,17 +34,21 @@ class Segment:
 
 
 def iri_trace(
-    elevation: FloatArray, interval_m: float, settings: IriSettings = STANDARD
+    elevation: FloatArray,
+    interval_m: float,
+    settings: IriSettings = STANDARD,
+    car: QuarterCar = GOLDEN_CAR,
 ) -> FloatArray:
     """Return the signed output of steps 1 to 3 in m/km, one value fewer than ``elevation``.
 
     Value k is the output at the end of the interval from point k to point k + 1; NaN before the
-    first and after the last measured point. Raises InputError for a profile shorter than the
-    start length. Source: steps 1 to 3 of section 2.1.1.
+    first and after the last measured point. With another ``car`` it is the trace of another index,
+    as of the Ride Number. Raises InputError for a profile shorter than the start length. Source:
+    steps 1 to 3 of section 2.1.1.
     """
     from floatref.measures.roughness.golden_car import car_response
 
-    run = _Run.of(elevation, interval_m, settings)
+    run = _Run.of(elevation, interval_m, settings, car)
     trace = np.full(max(np.size(elevation) - 1, 0), np.nan)
     measured = trace[run.first : run.first + run.elevation.size - 1]
     car_response(run.elevation, run.window, run.start_slope, 1.0 / interval_m, run.modes, measured)
@@ -111,7 +115,13 @@ class _Run:
     modes: Modes
 
     @classmethod
-    def of(cls, elevation: FloatArray, interval_m: float, settings: IriSettings) -> "_Run":
+    def of(
+        cls,
+        elevation: FloatArray,
+        interval_m: float,
+        settings: IriSettings,
+        car: QuarterCar = GOLDEN_CAR,
+    ) -> "_Run":
         """Return the pass over ``elevation``; InputError unless it is longer than the start."""
         values = check_elevation(elevation, interval_m)
         window, start = settings.window(interval_m), settings.start_count(interval_m)
@@ -123,7 +133,7 @@ class _Run:
                 f"{settings.start_length_m:g} m to find the slope it starts at"
             )
         start_slope = float(measured[start] - measured[0]) / (start * interval_m)
-        modes = GOLDEN_CAR.modes(interval_m / (settings.speed_kmh * KMH), M_PER_KM)
+        modes = car.modes(interval_m / (settings.speed_kmh * KMH), M_PER_KM)
         return cls(stretch.start, measured, interval_m, window, start_slope, modes)
 
     def rectified_sums(self, edges: NDArray[np.int64]) -> FloatArray:

@@ -3,11 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
+from floatref.measures.roughness.areas import list_areas, share, valid_points, valid_throughout
+from floatref.measures.roughness.gaps import check_elevation
 from floatref.measures.roughness.iri_settings import IriSettings, intervals_in
 from floatref.measures.roughness.roughness_index import STANDARD, iri_trace
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import BoolArray, FloatArray
 
 BASE_M = 7.62
 """Base length of the short-interval roughness profile in m (25 ft)."""
@@ -15,15 +18,22 @@ BASE_M = 7.62
 M_PER_KM_TO_IN_PER_MI = 63.36
 """One m/km in inches per mile."""
 
+TENTH_OF_A_MILE_M = 160.9344
+"""Length in m of a segment that is reported by itself (0.1 mile)."""
+
 
 @dataclass(frozen=True)
 class LocalizedRoughness:
-    """A stretch in m above a threshold, and the highest value in m/km and where it lies in m."""
+    """A stretch in m above a threshold, and the highest value in m/km and where it lies in m.
+
+    ``valid_share`` is the share, 0 to 1, of its values whose base length holds valid points only.
+    """
 
     start_m: float
     end_m: float
     peak_at_m: float
     peak_m_per_km: float
+    valid_share: float = 1.0
 
 
 def short_interval_roughness(
@@ -50,27 +60,40 @@ def localized_roughness(
     threshold_m_per_km: float,
     base_m: float = BASE_M,
     start_m: float = 0.0,
+    valid: ArrayLike | None = None,
 ) -> tuple[LocalizedRoughness, ...]:
     """Return every stretch whose short-interval roughness exceeds ``threshold_m_per_km``.
 
     ``start_m`` is the position of point 0 in m; a stretch goes from the start of its first to the
     end of its last interval, and the peak lies in the middle of one. In order of position.
+    ``valid`` has one value for each point; without it, finite points are valid. Source: 2.1.3; with
+    7.62 m these are the areas of localized roughness of AASHTO R 54.
     """
     roughness = short_interval_roughness(elevation, interval_m, base_m)
-    above = np.concatenate(([False], roughness > threshold_m_per_km, [False]))
-    firsts, ends = np.flatnonzero(np.diff(above)).reshape(-1, 2).T
-    found = []
-    for first, end in zip(firsts.tolist(), ends.tolist(), strict=True):
-        peak = first + int(np.argmax(roughness[first:end]))
-        found.append(
-            LocalizedRoughness(
-                start_m + first * interval_m,
-                start_m + end * interval_m,
-                start_m + (peak + 0.5) * interval_m,
-                float(roughness[peak]),
-            )
+    sound = valid_bases(elevation, interval_m, base_m, valid)
+    return tuple(
+        LocalizedRoughness(
+            start_m + area.first * interval_m,
+            start_m + area.end * interval_m,
+            start_m + (area.peak + 0.5) * interval_m,
+            float(roughness[area.peak]),
+            share(sound[area.first : area.end]),
         )
-    return tuple(found)
+        for area in list_areas(roughness, threshold_m_per_km)
+    )
+
+
+def valid_bases(
+    elevation: FloatArray, interval_m: float, base_m: float = BASE_M, valid: ArrayLike | None = None
+) -> BoolArray:
+    """Return of which values of `short_interval_roughness` the base length holds valid points only.
+
+    Same length as they; arguments and InputError as in `localized_roughness`.
+    """
+    points = valid_points(valid, check_elevation(elevation, interval_m))
+    window = intervals_in(base_m, interval_m)
+    before = window // 2
+    return valid_throughout(points, before, window - before)[:-1]
 
 
 def mean_roughness_index(left: float, right: float) -> float:

@@ -76,7 +76,7 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
     slope = np.diff(bridge(values)) / interval_m
     margin = math.ceil(limits.long_m / interval_m)
     continued = np.pad(slope - slope.mean(), margin, mode="symmetric")
-    return _pass_band(continued, interval_m, limits)[margin : margin + slope.size]
+    return pass_band(continued, interval_m, limits)[margin : margin + slope.size]
 
 
 def agreement(
@@ -101,7 +101,7 @@ def agreement(
     return cross_correlation(p_band, q_band, interval_m, max_offset_m)
 
 
-def _pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
+def pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
     """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
     from floatref.measures.roughness.zero_phase import high_pass_b3x2, low_pass_b3x2
 

@@ -93,7 +93,8 @@ def test_settings_are_written_as_process_reads_them(
     assert json.loads(target.read_text(encoding="utf-8")) == found["settings"]
     outcome = CliRunner().invoke(
         main,
-        ["process", str(still), "--out", str(tmp_path / "p"), "--settings", str(target)],
+        ["process", str(still), "--out", str(tmp_path / "p"), "--settings", str(target)]
+        + ["--pipeline", "temporal-basic"],
     )
     # The basic pipeline has no such setting, and says so by name: the file was read.
     assert "acceleration_density" in outcome.stderr

@@ -42,7 +42,7 @@ def lost_at(drive: Drive, begin: int, end: int) -> tuple[np.ndarray, np.ndarray]
 
 
 @given(
-    braking=st.floats(0.7, 6.0),
+    braking=st.floats(0.7, 5.0),
     standing_s=st.floats(3.0, 60.0),
     ends=st.tuples(st.floats(0.0, 1.0), st.floats(0.2, 2.0)),
 )

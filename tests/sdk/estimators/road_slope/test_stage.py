@@ -180,8 +180,8 @@ def test_a_stretch_that_does_not_settle_is_left_and_all_of_it_is_unsure(
 
 @pytest.mark.slow
 def test_the_constants_are_those_of_the_smoother() -> None:
-    """A vehicle that is known to pitch by half more than it does is believed."""
-    stop, known = stop_on_hump(), 1.5 * GAIN
+    """A vehicle that is known to pitch by a fifth more than it does is believed."""
+    stop, known = stop_on_hump(), 1.2 * GAIN
     stage = LevelByRoad(LEVEL, RoadPrior(tilt_expected=-known, tilt_sigma=1e-6))
     pass_through(stage, stop, stop.block())
     assert stage.list_learned()["tilt_expected"] == pytest.approx(-known, rel=1e-3)

@@ -1,0 +1,1 @@
+"""`floatref roughness`: what a road is paid by, beside its IRI."""

@@ -1,0 +1,83 @@
+"""`floatref roughness`: localized roughness, MRI, HRI, Ride Number, wavebands and sections."""
+
+from pathlib import Path
+
+import click
+
+from floatref.cli.printing import print_json
+from floatref.cli.roughness.roughness_report import RoughnessLimits, roughness_report
+from floatref.cli.roughness.roughness_tables import print_tables
+from floatref.engine.formats import profile_of
+from floatref.files.sources import name_errors
+
+DEFAULT = RoughnessLimits()
+
+
+@click.command("roughness")
+@click.argument("profile", type=click.Path(path_type=Path))
+@click.option(
+    "--tracks",
+    nargs=2,
+    metavar="LEFT RIGHT",
+    help="The wheel paths of the lane, where PROFILE has more than two.",
+)
+@click.option(
+    "--threshold",
+    "threshold_m_per_km",
+    type=float,
+    metavar="M_PER_KM",
+    default=DEFAULT.threshold_m_per_km,
+    show_default=True,
+    help="Continuous IRI over 7.62 m above which roughness is localized, in m/km.",
+)
+@click.option(
+    "--deviation",
+    "deviation_m",
+    type=float,
+    metavar="METRES",
+    default=DEFAULT.deviation_m,
+    show_default=True,
+    help="Deviation from the moving average beyond which there is a bump or a dip.",
+)
+@click.option(
+    "--section",
+    "section_m",
+    type=float,
+    metavar="METRES",
+    default=DEFAULT.section_m,
+    show_default=True,
+    help="Length of a section.",
+)
+@click.option(
+    "--band",
+    "bands",
+    type=float,
+    nargs=2,
+    multiple=True,
+    metavar="LONG SHORT",
+    help="Longest and shortest wavelength of a waveband in m; can be repeated.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def roughness(
+    profile: Path,
+    tracks: tuple[str, str] | None,
+    threshold_m_per_km: float,
+    deviation_m: float,
+    section_m: float,
+    bands: tuple[tuple[float, float], ...],
+    as_json: bool,
+) -> None:
+    """Print what a road is paid by, of PROFILE: a profile directory or a file of any format.
+
+    Localized roughness by continuous IRI of every wheel path, MRI, HRI, Ride Number, bumps and dips
+    of the lane, wavebands, and sections of 0.1 mile. All measured points count; each figure has the
+    share of valid points that it rests on.
+    """
+    limits = RoughnessLimits.of(threshold_m_per_km, deviation_m, section_m, bands)
+    read = profile_of(profile)
+    with name_errors(profile):
+        report = roughness_report(read, limits, tracks)
+    if as_json:
+        print_json(report)
+    else:
+        print_tables(report)

@@ -1,0 +1,197 @@
+"""The JSON document of `floatref roughness`: every figure with the share of it that is valid."""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from floatref.errors import InputError
+from floatref.files.sources import name_errors
+from floatref.measures import (
+    WAVEBANDS,
+    HpmsSection,
+    IriSettings,
+    Waveband,
+    bumps_and_dips,
+    half_car_roughness_index,
+    hpms_sections,
+    iri,
+    join_profile_indices,
+    localized_roughness,
+    mean_path,
+    mean_roughness_index,
+    rated_shares,
+    ride_number,
+    ride_profile_index,
+    waveband_energy,
+)
+from floatref.measures.ride.bumps_and_dips import AVERAGE_BASE_M, DEVIATION_LIMIT_M
+from floatref.measures.roughness.roughness_profile import BASE_M, TENTH_OF_A_MILE_M
+from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.profile import Profile, ProfileTrack
+
+LOCALIZED_ABOVE_M_PER_KM = 2.5
+"""Continuous IRI in m/km above which roughness is localized, unless a contract says otherwise."""
+
+
+@dataclass(frozen=True)
+class RoughnessLimits:
+    """What a contract says: threshold in m/km, deviation, section and wavebands in m.
+
+    Raises InputError for a threshold, deviation or section that is not above zero.
+    """
+
+    threshold_m_per_km: float = LOCALIZED_ABOVE_M_PER_KM
+    deviation_m: float = DEVIATION_LIMIT_M
+    section_m: float = TENTH_OF_A_MILE_M
+    bands: tuple[Waveband, ...] = tuple(WAVEBANDS.values())
+
+    @classmethod
+    def of(
+        cls,
+        threshold: float,
+        deviation: float,
+        section: float,
+        bands: Sequence[tuple[float, float]],
+    ) -> "RoughnessLimits":
+        """Return the limits; without ``bands`` the three diagnostic ones."""
+        if not bands:
+            return cls(threshold, deviation, section)
+        return cls(threshold, deviation, section, tuple(Waveband(*band) for band in bands))
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be a limit."""
+        for name in ("threshold_m_per_km", "deviation_m", "section_m"):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value > 0.0):
+                raise InputError(f"{name} is {value}; give a finite number above zero")
+
+
+@dataclass(frozen=True, eq=False)
+class Lane:
+    """The wheel paths of a lane, one or two, and which points of their mean are valid."""
+
+    tracks: tuple[ProfileTrack, ...]
+    elevation: FloatArray
+    valid: BoolArray
+
+    @classmethod
+    def of(cls, profile: Profile, names: Sequence[str] | None) -> "Lane":
+        """Return the lane of ``profile`` that has the wheel paths ``names``, or all it has.
+
+        Raises InputError for a path that is missing, one that is given twice, or more than two.
+        """
+        tracks = tuple(map(profile.track, names)) if names else profile.tracks
+        if len(tracks) > 2 or len({track.name for track in tracks}) < len(tracks):
+            known = ", ".join(track.name for track in profile.tracks)
+            raise InputError(
+                f"a lane has two different wheel paths, the profile {known}; "
+                "give --tracks LEFT RIGHT"
+            )
+        first, last = tracks[0], tracks[-1]
+        mean = mean_path(first.elevation, last.elevation, profile.interval_m)
+        return cls(tracks, mean, first.valid & last.valid)
+
+
+def roughness_report(
+    profile: Profile, limits: RoughnessLimits, names: Sequence[str] | None = None
+) -> dict[str, Any]:
+    """Return the JSON document of `floatref roughness --json`.
+
+    ``names`` are the two wheel paths of the lane. Raises InputError as the measures do.
+    """
+    lane = Lane.of(profile, names)
+    tracks = [_describe_track(track, profile, limits) for track in lane.tracks]
+    sections = hpms_sections(
+        [track.elevation for track in lane.tracks],
+        profile.interval_m,
+        [track.valid for track in lane.tracks],
+        profile.start_m,
+        limits.section_m,
+    )
+    return {
+        "settings": _settings(limits, profile.interval_m),
+        "tracks": tracks,
+        "lane": _describe_lane(lane, tracks, profile, limits),
+        "sections": [_describe_section(section, lane) for section in sections],
+        "section_length_shares": dict(rated_shares(sections)),
+    }
+
+
+def _settings(limits: RoughnessLimits, interval_m: float) -> dict[str, Any]:
+    """Return the settings that are printed with the figures."""
+    return {
+        **IriSettings(segment_m=limits.section_m).as_dict(interval_m),
+        "localized_roughness": f"IRI over {BASE_M:g} m above a threshold (AASHTO R 54)",
+        "threshold_m_per_km": limits.threshold_m_per_km,
+        "bumps_and_dips": f"off a centred average of {AVERAGE_BASE_M:g} m (Tex-1001-S)",
+        "deviation_m": limits.deviation_m,
+        "ride_number": "5 exp(-160 PI), PI of two paths by root mean square (UMTRI)",
+        "rating": "good below 95 in/mi, poor above 170 in/mi (23 CFR 490.313)",
+    }
+
+
+def _describe_track(
+    track: ProfileTrack, profile: Profile, limits: RoughnessLimits
+) -> dict[str, Any]:
+    """Return the figures of one wheel path."""
+    z, interval = track.elevation, profile.interval_m
+    with name_errors(f"track {track.name}"):
+        index = ride_profile_index(z, interval)
+        areas = localized_roughness(
+            z,
+            interval,
+            limits.threshold_m_per_km,
+            start_m=profile.start_m,
+            valid=track.valid,
+        )
+        energies = [waveband_energy(z, interval, band, track.valid) for band in limits.bands]
+        return {
+            "name": track.name,
+            "valid_share": float(np.mean(track.valid)),
+            "iri_m_per_km": iri(z, interval),
+            "ride_profile_index": index,
+            "ride_number": ride_number(index),
+            "localized_roughness": [asdict(area) for area in areas],
+            "wavebands": [asdict(energy) for energy in energies],
+        }
+
+
+def _describe_lane(
+    lane: Lane, tracks: list[dict[str, Any]], profile: Profile, limits: RoughnessLimits
+) -> dict[str, Any]:
+    """Return the figures of the lane; None for those that need two wheel paths and have one."""
+    found: dict[str, Any] = {
+        "tracks": [track.name for track in lane.tracks],
+        "valid_share": float(np.mean(lane.valid)),
+        "mean_roughness_index_m_per_km": None,
+        "half_car_roughness_index_m_per_km": None,
+        "ride_number": None,
+    }
+    if len(tracks) == 2:
+        left, right = tracks
+        indices = (track["ride_profile_index"] for track in tracks)
+        found["mean_roughness_index_m_per_km"] = mean_roughness_index(
+            left["iri_m_per_km"], right["iri_m_per_km"]
+        )
+        found["half_car_roughness_index_m_per_km"] = half_car_roughness_index(
+            lane.tracks[0].elevation, lane.tracks[1].elevation, profile.interval_m
+        )
+        found["ride_number"] = ride_number(join_profile_indices(*indices))
+    places = bumps_and_dips(
+        lane.elevation,
+        profile.interval_m,
+        limits.deviation_m,
+        start_m=profile.start_m,
+        valid=lane.valid,
+    )
+    return found | {"bumps_and_dips": [asdict(place) for place in places]}
+
+
+def _describe_section(section: HpmsSection, lane: Lane) -> dict[str, Any]:
+    """Return the record of one section, its IRIs by wheel path."""
+    names = (track.name for track in lane.tracks)
+    return asdict(section) | {
+        "iri_m_per_km": dict(zip(names, section.iri_m_per_km, strict=True)),
+    }

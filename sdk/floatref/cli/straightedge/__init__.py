@@ -1,0 +1,1 @@
+"""`floatref straightedge`: what a straightedge and a profilograph measure on a road."""

@@ -1,0 +1,5 @@
+"""What a notebook or a script calls: a path processed, and values as tables of other libraries."""
+
+from floatref.notebook.processing import process
+
+__all__ = ["process"]

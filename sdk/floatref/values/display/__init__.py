@@ -1,0 +1,1 @@
+"""What a value shows of itself: one line, a small table, and views made by rooms above."""
