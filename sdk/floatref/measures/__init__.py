@@ -9,11 +9,8 @@ Allan deviation, take a channel or its samples.
 from floatref.measures.allan.at_rest import ChannelNoise, channel_noise
 from floatref.measures.allan.deviation import AllanDeviation, allan_deviation
 from floatref.measures.allan.noise_fit import NoiseCoefficients, NoiseFit, fit_noise
-from floatref.measures.ride.bumps_and_dips import (
-    BumpOrDip,
-    bumps_and_dips,
-    deviation_from_average,
-)
+from floatref.measures.ride.bumps_and_dips import bumps_and_dips, deviation_from_average
+from floatref.measures.ride.deviation_areas import BumpOrDip
 from floatref.measures.ride.hpms_segments import (
     HpmsSection,
     hpms_sections,
@@ -29,7 +26,6 @@ from floatref.measures.ride.profile_index import (
 )
 from floatref.measures.ride.profilograph import Profilograph, profilograph_trace, valid_frames
 from floatref.measures.ride.rolling_straightedge import (
-    OutOfTolerance,
     StraightedgeResult,
     rolling_straightedge,
     straightedge_deviation,
@@ -94,7 +90,6 @@ __all__ = [
     "MustGrind",
     "NoiseCoefficients",
     "NoiseFit",
-    "OutOfTolerance",
     "ProfileIndex",
     "Profilograph",
     "QuarterCar",

@@ -34,6 +34,11 @@ from floatref.values.profile import Profile, ProfileTrack
 LOCALIZED_ABOVE_M_PER_KM = 2.5
 """Continuous IRI in m/km above which roughness is localized, unless a contract says otherwise."""
 
+OF_ONE_PATH: dict[str, float | None] = dict.fromkeys(
+    ("mean_roughness_index_m_per_km", "half_car_roughness_index_m_per_km", "ride_number")
+)
+"""The figures of a lane that need two wheel paths, None where it has one."""
+
 
 @dataclass(frozen=True)
 class RoughnessLimits:
@@ -162,23 +167,6 @@ def _describe_lane(
     lane: Lane, tracks: list[dict[str, Any]], profile: Profile, limits: RoughnessLimits
 ) -> dict[str, Any]:
     """Return the figures of the lane; None for those that need two wheel paths and have one."""
-    found: dict[str, Any] = {
-        "tracks": [track.name for track in lane.tracks],
-        "valid_share": float(np.mean(lane.valid)),
-        "mean_roughness_index_m_per_km": None,
-        "half_car_roughness_index_m_per_km": None,
-        "ride_number": None,
-    }
-    if len(tracks) == 2:
-        left, right = tracks
-        indices = (track["ride_profile_index"] for track in tracks)
-        found["mean_roughness_index_m_per_km"] = mean_roughness_index(
-            left["iri_m_per_km"], right["iri_m_per_km"]
-        )
-        found["half_car_roughness_index_m_per_km"] = half_car_roughness_index(
-            lane.tracks[0].elevation, lane.tracks[1].elevation, profile.interval_m
-        )
-        found["ride_number"] = ride_number(join_profile_indices(*indices))
     places = bumps_and_dips(
         lane.elevation,
         profile.interval_m,
@@ -186,7 +174,26 @@ def _describe_lane(
         start_m=profile.start_m,
         valid=lane.valid,
     )
-    return found | {"bumps_and_dips": [asdict(place) for place in places]}
+    return {
+        "tracks": [track.name for track in lane.tracks],
+        "valid_share": float(np.mean(lane.valid)),
+        **(OF_ONE_PATH if len(tracks) == 1 else _of_two_paths(lane, tracks, profile.interval_m)),
+        "bumps_and_dips": [asdict(place) for place in places],
+    }
+
+
+def _of_two_paths(
+    lane: Lane, tracks: list[dict[str, Any]], interval_m: float
+) -> dict[str, float | None]:
+    """Return MRI, HRI and Ride Number of two wheel paths; ``tracks`` are their own figures."""
+    left, right = tracks
+    one, other = (track.elevation for track in lane.tracks)
+    values = (
+        mean_roughness_index(left["iri_m_per_km"], right["iri_m_per_km"]),
+        half_car_roughness_index(one, other, interval_m),
+        ride_number(join_profile_indices(left["ride_profile_index"], right["ride_profile_index"])),
+    )
+    return dict(zip(OF_ONE_PATH, values, strict=True))
 
 
 def _describe_section(section: HpmsSection, lane: Lane) -> dict[str, Any]:

@@ -14,8 +14,7 @@ from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
 from floatref.kernels.cut_off import SIXTH_ORDER
-from floatref.measures.roughness.areas import valid_points, valid_throughout
-from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
+from floatref.measures.ride.deviation_areas import bridged_rise, place_inside, sound_points
 from floatref.values.arrays import BoolArray, FloatArray
 
 HALF_WHEELBASE_M = 3.81
@@ -79,17 +78,14 @@ def profilograph_trace(
     kinematic model that ASTM E2955 names, by its geometry; the low-pass is LPF_B3x2 of appendix
     A.1, (A.21).
     """
-    values = check_elevation(elevation, interval_m)
-    stretch = measured_stretch(values)
-    road = _smooth(bridge(values[stretch]) - values[stretch.start], interval_m, machine)
+    stretch, rise = bridged_rise(elevation, interval_m)
+    road = _smooth(rise, interval_m, machine)
     offsets = machine.offsets(interval_m)
     first, end = max(0, -min(offsets)), road.size - max(0, max(offsets))
-    trace = np.full(values.size, np.nan)
-    if end > first:
-        frame = sum(road[first + n : end + n] for n in offsets) / len(offsets)
-        trace[stretch.start + first : stretch.start + end] = road[first:end] - frame
-    trace[~np.isfinite(values)] = np.nan
-    return trace
+    if end <= first:
+        return np.full(np.size(elevation), np.nan)
+    frame = sum(road[first + n : end + n] for n in offsets) / len(offsets)
+    return place_inside(road[first:end] - frame, elevation, stretch, first)
 
 
 def valid_frames(
@@ -104,8 +100,7 @@ def valid_frames(
     point.
     """
     offsets = machine.offsets(interval_m)
-    points = valid_points(valid, np.asarray(elevation, dtype=np.float64))
-    return valid_throughout(points, max(0, -min(offsets)), max(0, max(offsets)))
+    return sound_points(valid, elevation, max(0, -min(offsets)), max(0, max(offsets)))
 
 
 def _smooth(rise: FloatArray, interval_m: float, machine: Profilograph) -> FloatArray:

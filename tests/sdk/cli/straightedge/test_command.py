@@ -99,7 +99,7 @@ def test_a_profile_between_both_lengths_has_a_straightedge_alone(tmp_path: Path,
     [
         (["--length", "0"], "length of the straightedge is 0.0 m"),
         (["--length", "900"], "track main: the straightedge of 900 m has no place on the measured"),
-        (["--tolerance", "-1"], "tolerance is -1.0 m"),
+        (["--tolerance", "-1"], "a deviation of -1.0 m is no limit"),
         (["--wheels", "1,b"], "--wheels 1,b: not a list of numbers"),
         (["--wheels", "1,2"], "no wheel on one side"),
         (["--low-pass", "nan"], "low-pass is nan m"),

@@ -73,7 +73,7 @@ def test_a_profile_shorter_than_the_straightedge_has_no_result() -> None:
 
 @pytest.mark.parametrize(
     ("length", "tolerance", "text"),
-    [(0.0, 0.003, "length"), (float("nan"), 0.003, "length"), (3.0, 0.0, "tolerance")],
+    [(0.0, 0.003, "length"), (float("nan"), 0.003, "length"), (3.0, 0.0, "no limit")],
 )
 def test_impossible_numbers_are_refused(length: float, tolerance: float, text: str) -> None:
     with pytest.raises(InputError, match=text):

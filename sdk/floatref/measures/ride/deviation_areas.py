@@ -1,0 +1,120 @@
+"""Bumps and dips of a deviation: where a road leaves a line, and how much of that is valid.
+
+The line at a point is made from the points on both sides of it, as far as half a length: a moving
+average, or a straightedge on two wheels.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from floatref.errors import InputError
+from floatref.measures.roughness.areas import (
+    Area,
+    list_areas,
+    share,
+    valid_points,
+    valid_throughout,
+)
+from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
+from floatref.values.arrays import BoolArray, FloatArray
+
+SIGNS = (("bump", 1.0), ("dip", -1.0))
+
+
+@dataclass(frozen=True)
+class BumpOrDip:
+    """An area from its first to its last point in m, and its largest deviation in m.
+
+    ``kind`` is "bump" or "dip"; ``deviation_m`` is below zero for a dip and lies at ``peak_at_m``.
+    ``valid_share`` is the share, 0 to 1, of its points whose line is made from valid points only.
+    """
+
+    kind: str
+    start_m: float
+    end_m: float
+    peak_at_m: float
+    deviation_m: float
+    valid_share: float
+
+
+@dataclass(frozen=True, eq=False)
+class Deviation:
+    """How far a road is above its line in m, for each point of a profile; NaN where unknown.
+
+    ``sound`` says for each point whether its line is made from valid points only.
+    """
+
+    values: FloatArray
+    sound: BoolArray
+    interval_m: float
+    start_m: float
+
+    def list_areas(self, limit_m: float) -> tuple[BumpOrDip, ...]:
+        """Return every stretch farther than ``limit_m`` above or below the line, in order.
+
+        Raises InputError for a limit that is not above zero.
+        """
+        if not limit_m > 0:
+            raise InputError(f"a deviation of {limit_m} m is no limit; it must be above zero")
+        found = [
+            self._describe(kind, area)
+            for kind, sign in SIGNS
+            for area in list_areas(sign * self.values, limit_m)
+        ]
+        return tuple(sorted(found, key=lambda each: each.start_m))
+
+    def _describe(self, kind: str, area: Area) -> BumpOrDip:
+        """Return the record of ``area``."""
+        first, last, peak = (
+            self.start_m + k * self.interval_m for k in (area.first, area.end - 1, area.peak)
+        )
+        valid_share = share(self.sound[area.first : area.end])
+        return BumpOrDip(kind, first, last, peak, float(self.values[area.peak]), valid_share)
+
+
+def half_count(length_m: float, interval_m: float, name: str) -> int:
+    """Return the intervals in half of ``length_m``: round(length/2/interval), at least 1.
+
+    Ties go to even. Raises InputError, with ``name``, for a length that is not finite and above
+    zero.
+    """
+    if not (np.isfinite(length_m) and length_m > 0):
+        raise InputError(f"{name} is {length_m} m; it must be above zero")
+    return max(round(length_m / 2.0 / interval_m), 1)
+
+
+def bridged_rise(elevation: FloatArray, interval_m: float) -> tuple[slice, FloatArray]:
+    """Return the measured stretch of ``elevation`` and its height above its first point, in m.
+
+    Gaps inside are bridged. Raises InputError for elevations that cannot be used.
+    """
+    values = check_elevation(elevation, interval_m)
+    stretch = measured_stretch(values)
+    return stretch, bridge(values[stretch]) - values[stretch.start]
+
+
+def place_inside(
+    inner: FloatArray, elevation: FloatArray, stretch: slice, before: int
+) -> FloatArray:
+    """Return ``inner`` at its points of ``elevation``, NaN elsewhere and in gaps.
+
+    Value 0 belongs to the point ``before`` points behind the start of ``stretch``.
+    """
+    placed = np.full(np.size(elevation), np.nan)
+    first = stretch.start + before
+    placed[first : first + inner.size] = inner
+    placed[~np.isfinite(elevation)] = np.nan
+    return placed
+
+
+def sound_points(
+    valid: ArrayLike | None, elevation: FloatArray, before: int, after: int
+) -> BoolArray:
+    """Return of which points those from ``before`` before to ``after`` behind are all valid.
+
+    Without ``valid``, finite points are valid. Raises InputError unless it has a value for each.
+    """
+    points = valid_points(valid, np.asarray(elevation, dtype=np.float64))
+    return valid_throughout(points, before, after)
