@@ -41,7 +41,7 @@ def test_a_profile_directory_with_provenance(folder, ran):
     assert [track.name for track in profile.tracks] == ["left", "right"]
     assert profile.provenance["adapter"] == "recording"
     assert set(profile.provenance["sha256"]) == {p.name for p in (folder / "run").iterdir()}
-    assert "cutoff_wavelength_m  105.91" in result.output
+    assert re.search(r"cutoff_wavelength_m +105\.91\n", result.output)
     assert "Warning: " in result.stderr
 
 

@@ -16,8 +16,8 @@ from floatref import (
     StageCall,
     answers,
     hookimpl,
+    process,
 )
-from floatref.engine.automatic import process
 from floatref.engine.plugins import Plugins
 
 OWN = StageCall("RemoveMean", "elevation")

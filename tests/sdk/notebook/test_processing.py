@@ -1,13 +1,9 @@
 """`process` of a path is that of the recording there, with its source in the record."""
 
-import inspect
-
 import numpy as np
 import pytest
 
-import floatref
 from floatref import FloatrefWarning, InputError, process, read_recording, write_recording
-from floatref.engine import run as engine
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 
@@ -106,12 +102,3 @@ def test_a_warning_is_about_the_line_that_called(tmp_path, steady) -> None:
         with pytest.warns(FloatrefWarning) as found:
             process(given)
         assert {line.filename for line in found} == {__file__}
-
-
-def test_its_defaults_are_those_of_the_engine() -> None:
-    ours = inspect.signature(floatref.process).parameters
-    for name, theirs in inspect.signature(engine.process).parameters.items():
-        assert ours[name].default == theirs.default
-        assert list(ours).index(name) == list(inspect.signature(engine.process).parameters).index(
-            name
-        )

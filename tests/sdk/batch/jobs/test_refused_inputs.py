@@ -21,7 +21,7 @@ from floatref.errors import InputError
         (
             "csv",
             {"settings": {"no": 1.0}},
-            "setting no: pipeline temporal-basic has no such setting",
+            "settings no: no pipeline of `auto` has them all",
         ),
         ("csv", {"adapter": "no"}, "adapter no: unknown"),
         ("csv", {"channel_map": Path("no.toml")}, "no.toml: No such file"),

@@ -85,6 +85,9 @@ def test_tables_give_both_units_and_settings(
     assert ["pitch_rate_walk", "–", "not", "seen,", "or", "off", "the", "curve"] in rows
 
 
+BASIC = "--pipeline", "temporal-basic"
+
+
 def test_settings_are_written_as_process_reads_them(
     still: Path, tmp_path: Path, report: Reports, refused: Refusals
 ) -> None:
@@ -93,8 +96,7 @@ def test_settings_are_written_as_process_reads_them(
     assert json.loads(target.read_text(encoding="utf-8")) == found["settings"]
     outcome = CliRunner().invoke(
         main,
-        ["process", str(still), "--out", str(tmp_path / "p"), "--settings", str(target)]
-        + ["--pipeline", "temporal-basic"],
+        ["process", str(still), "--out", str(tmp_path / "p"), "--settings", str(target), *BASIC],
     )
     # The basic pipeline has no such setting, and says so by name: the file was read.
     assert "acceleration_density" in outcome.stderr
