@@ -43,7 +43,7 @@ class Choice:
 def choices_for(recording: Recording, known: Mapping[str, Pipeline]) -> tuple[Choice, ...]:
     """Return the pipelines that ``recording`` has the channels for, the best first.
 
-    Raises InputError, which names a channel, if it has them for none.
+    Raises InputError, which names an absent channel, where no pipeline can be taken.
     """
     found = tuple(_choices(recording, known))
     if not found:
