@@ -55,11 +55,13 @@ def measure_flags(
     nearest = np.argmin(np.abs(x[around][:, None] - places[None, :]), axis=1)
     lengths = compared.interval_m * np.bincount(nearest, minlength=places.size)
     return (
-        Measurement("flagged at an end", compared.track, max(ends), "m", END_LIMITS),
-        Measurement(
-            "flagged around an event", compared.track, float(lengths.max()), "m", EVENT_LIMITS
-        ),
+        _length("flagged at an end", compared.track, max(ends), END_LIMITS),
+        _length("flagged around an event", compared.track, float(lengths.max()), EVENT_LIMITS),
     )
+
+
+def _length(quantity: str, track: str, length_m: float, limits: Limits) -> Measurement:
+    return Measurement(quantity, track, length_m, "m", limits, is_flagged_length=True)
 
 
 def _at_end(bad: BoolArray, x: FloatArray, events_m: Sequence[float]) -> BoolArray:

@@ -43,7 +43,8 @@ class Verdict(StrEnum):
 class Measurement:
     """One number of one wheel path against the largest value allowed in each class.
 
-    A class that is missing in ``limits`` does not limit this quantity.
+    A class that is missing in ``limits`` does not limit this quantity. ``is_flagged_length`` is
+    true for a length that the device flagged invalid, which is no error of its profile.
     """
 
     quantity: str
@@ -52,6 +53,7 @@ class Measurement:
     unit: str
     limits: Limits
     evidence: Evidence | None = None
+    is_flagged_length: bool = False
 
     def ratio(self, device_class: DeviceClass) -> float:
         """Return value over limit: above 1 is a failure; NaN is a failure too.
@@ -65,6 +67,14 @@ class Measurement:
     def rank(self, device_class: DeviceClass) -> tuple[float, bool]:
         """Return the sort key, the worst last: the ratio, then whether the class has a limit."""
         return self.ratio(device_class), device_class in self.limits
+
+    def rank_in_table(self, device_class: DeviceClass) -> tuple[bool, bool, float]:
+        """Return the sort key of the judge's table, the row's quantity last.
+
+        A flagged length within its limit ranks below every error that has a limit.
+        """
+        counts = not (self.is_flagged_length and self.within(device_class))
+        return device_class in self.limits, counts, self.ratio(device_class)
 
     def within(self, device_class: DeviceClass) -> bool:
         """Return whether the value is within the limit of ``device_class``."""
@@ -152,6 +162,8 @@ class CheckResult:
         cases: number of judged cases, seeded and drawn by the search.
         worst: the measurement nearest to its limit, or farthest beyond.
         worst_case: name of its case.
+        shown: the measurement of the judge's table, by `Measurement.rank_in_table`.
+        shown_case: name of its case.
         counterexample: the simplest case found that fails: ``case``, ``parameters``,
             ``reason``, and ``file``, its name in a report directory.
         flagged_m, early_m: the largest values of its cases.
@@ -178,6 +190,8 @@ class CheckResult:
     worst_track: str = ""
     false_alarms: int = 0
     nees: NeesEnds | None = None
+    shown: Measurement | None = None
+    shown_case: str = ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,13 +22,12 @@ from floatref_conformance.judge.runner import Plan, run
 from floatref_conformance.render.terminal import TerminalRenderer
 
 
-def follow(plan: Plan, writers: Sequence[Renderer]) -> RunResult:
-    """Run ``plan``, show it, have it written by ``writers``, and return the result.
+def follow(plan: Plan, terminal: TerminalRenderer, writers: Sequence[Renderer]) -> RunResult:
+    """Run ``plan``, show it on ``terminal``, have it written by ``writers``, return the result.
 
     Without a verdict, or without a report of it, the command ends here with its exit code. The
     run goes on when nobody reads what it shows.
     """
-    terminal = TerminalRenderer()
     finished: list[RunFinished] = []
 
     def emit(event: Event) -> None:
@@ -78,6 +77,8 @@ def _tell(event: Event, writers: Sequence[Renderer]) -> None:
         for writer in writers:
             writer.handle(event)
     except Exception as error:
+        if isinstance(error, BrokenPipeError):
+            drop_output()
         click.echo(f"Error: no report: {in_one_line(error)}", err=True)
         raise click.exceptions.Exit(FAULT_OF_THE_SUITE) from error
 

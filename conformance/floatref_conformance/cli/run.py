@@ -14,6 +14,8 @@ from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.runner import Plan
 from floatref_conformance.judge.waivers import check_used, read_waivers
 from floatref_conformance.plugins import load_registry
+from floatref_conformance.render.report import JsonOutput
+from floatref_conformance.render.terminal import TerminalRenderer, make_console
 
 RECOMMENDED = "builtin:road-prior-smoother"
 
@@ -62,6 +64,13 @@ RECOMMENDED = "builtin:road-prior-smoother"
     help="Directory for report.json, report.html, junit.xml, and the cases that fail; those in "
     "it are run again.",
 )
+@click.option("--verbose", is_flag=True, help="Show the details of every check below the table.")
+@click.option(
+    "--json",
+    "as_json",
+    is_flag=True,
+    help="Print one JSON object, that of report.json; all else goes to stderr.",
+)
 @edition_option
 @click.pass_context
 def run(
@@ -74,9 +83,13 @@ def run(
     waive: Path | None,
     device_timeout: float | None,
     report: Path | None,
+    verbose: bool,
+    as_json: bool,
     edition: str,
 ) -> None:
     """Judge a device.
+
+    The table at the end has a row for each check: the quantity that is worst against its limit.
 
     Exit code 0: PASS; 1: FAIL; 2: wrong usage; 3: the suite itself is at fault, no verdict, or
     the report could not be written; 4: INCOMPLETE, since checks were left out, skipped or waived.
@@ -107,7 +120,9 @@ def run(
             edition=find_edition(edition),
         )
         writers = writers_into(report)
-    finished = follow(plan, writers)
+    if as_json:
+        writers.append(JsonOutput(click.echo))
+    finished = follow(plan, TerminalRenderer(make_console(stderr=as_json), verbose), writers)
     if waive is not None:
         check_used(waivers, finished, waive)
     context.exit(finished.verdict.exit_code)

@@ -1,6 +1,6 @@
 """From the cases of a check to its outcome."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from floatref_conformance.case_files import name_of
@@ -24,15 +24,15 @@ def check_result(
     """Return the outcome of ``check`` from its ``cases``, for a device of ``device_class``.
 
     A fault of the device is an error; otherwise the worst measurement decides. ``simpler`` is the
-    simplest failing case. Raises SuiteError if the oracle does not confirm the worst measurement.
+    simplest failing case. Raises SuiteError if the oracle does not confirm the worst measurement,
+    or that of the judge's table.
     """
-    worst, worst_case = max(
-        ((m, case.name) for case in cases if (m := case.worst(device_class)) is not None),
-        key=lambda measured: measured[0].rank(device_class),
-        default=(None, ""),
-    )
+    worst, worst_case = _find_largest(cases, lambda m: m.rank(device_class))
+    shown, shown_case = _find_largest(cases, lambda m: m.rank_in_table(device_class))
     if worst is not None:
         oracle.confirm(check.id, worst)
+    if shown is not None and shown is not worst:
+        oracle.confirm(check.id, shown)
     outcome, reason = _outcome(cases, worst, device_class)
     failed = outcome in (Outcome.FAIL, Outcome.ERROR)
     if failed and simpler and simpler[1].again:
@@ -54,7 +54,17 @@ def check_result(
         passes=simpler[1].passes if failed and simpler else (),
         scored_m=find_scored(check, simpler[0]) if failed and simpler else (),
         worst_track=_worst_track(simpler[1], device_class) if failed and simpler else "",
+        shown=shown,
+        shown_case=shown_case,
     )
+
+
+def _find_largest(
+    cases: Sequence[CaseResult], rank: Callable[[Measurement], tuple[float, ...]]
+) -> tuple[Measurement | None, str]:
+    """Return the measurement of ``cases`` that ``rank`` puts last, and the name of its case."""
+    measured = ((m, case.name) for case in cases for m in case.measurements)
+    return max(measured, key=lambda pair: rank(pair[0]), default=(None, ""))
 
 
 def find_scored(check: Check, case: Case) -> Stretches:

@@ -140,7 +140,7 @@ def _case(
 
 def _check(check: CheckResult, result: RunResult, seconds: float) -> Element:
     lines = [check.reason]
-    if check.worst is not None:
+    if check.shown is not None:
         lines.append(wording.describe_worst(check, result.device_class))
     if check.clause:
         lines.append(f"clause: {check.clause}")
@@ -181,11 +181,11 @@ def _properties(result: RunResult) -> list[tuple[str, str]]:
 def _output(result: RunResult) -> str:
     lines = [wording.verdict_line(result), *wording.not_run_lines(result)]
     for check in result.checks:
-        if check.worst is not None:
+        if check.shown is not None:
             reached = check.class_reached or "no class"
             lines.append(
                 f"{check.id}: {check.outcome}, class reached {reached}, {check.cases} cases, "
-                f"{_worst(check, check.worst, result.device_class)}"
+                f"{_worst(check, check.shown, result.device_class)}"
             )
     return "\n".join(lines)
 

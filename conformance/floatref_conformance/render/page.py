@@ -149,9 +149,9 @@ def _urgency(check: CheckResult, device_class: DeviceClass) -> tuple[int, float]
     """Return what sorts the checks: judged ones by margin, faults first, those not run last."""
     if check.outcome in wording.UNJUDGED:
         return 2 if check.outcome is Outcome.SKIP else 1, 0.0
-    if check.outcome is Outcome.ERROR or check.worst is None:
+    if check.outcome is Outcome.ERROR or check.shown is None:
         return -1, 0.0
-    return 0, -check.worst.ratio(device_class)
+    return 0, -check.shown.ratio(device_class)
 
 
 def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
@@ -179,7 +179,7 @@ def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
         class_reached=check.class_reached or "no class",
         cases=check.cases,
     )
-    worst = check.worst
+    worst = check.shown
     if worst is None:
         return replace(row, notes=_alarms(check))
     unlimited = wording.why_unlimited(check, device_class)
@@ -201,7 +201,7 @@ def _row(check: CheckResult, device_class: DeviceClass, target: str) -> Row:
 
 def _notes(check: CheckResult, worst: Measurement) -> tuple[str, ...]:
     """Return what the worst value is a value of, in which case, and what was flagged."""
-    case = f"case {check.worst_case}" if check.worst_case else ""
+    case = f"case {check.shown_case}" if check.shown_case else ""
     flagged = wording.describe_flagged(check) if check.flagged_m else ""
     early = wording.describe_early(check) if check.early_m else ""
     notes = (f"{worst.quantity}, track {worst.track}", case, flagged, early, *_alarms(check))

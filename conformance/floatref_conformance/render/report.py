@@ -2,6 +2,7 @@
 
 import json
 import os
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -36,6 +37,23 @@ class JsonReport:
         """Write the report once the run has finished."""
         if isinstance(event, RunFinished):
             write(as_json(event.result), self.folder / NAME)
+
+
+@dataclass(frozen=True)
+class JsonOutput:
+    """Passes the report as one text to ``write`` when the verdict is there.
+
+    The text is ASCII; it is the same document as that of `JsonReport`.
+    """
+
+    write: Callable[[str], None]
+
+    def handle(self, event: Event) -> None:
+        """Write the report once the run has finished; SuiteError if it breaks the schema."""
+        if isinstance(event, RunFinished):
+            document = as_json(event.result)
+            enforce("conformance-report-1", document)
+            self.write(json.dumps(document, indent=2, allow_nan=False))
 
 
 def as_json(result: RunResult) -> dict[str, Any]:
@@ -77,7 +95,8 @@ def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
         "reason": check.reason,
         "class_reached": _name(check.class_reached),
         "cases": check.cases,
-        "worst": check.worst and _worst(check.worst, check.worst_case, device_class),
+        "worst": check.worst and _measured(check.worst, check.worst_case, device_class),
+        "shown": check.shown and _measured(check.shown, check.shown_case, device_class),
         "clause": check.clause,
         "flagged_m": check.flagged_m,
         **early,
@@ -87,8 +106,8 @@ def _check(check: CheckResult, device_class: DeviceClass) -> dict[str, Any]:
     }
 
 
-def _worst(worst: Measurement, case: str, device_class: DeviceClass) -> dict[str, Any]:
-    """Return the worst value; its limit is null in a class that does not limit it."""
+def _measured(worst: Measurement, case: str, device_class: DeviceClass) -> dict[str, Any]:
+    """Return ``worst`` of its check; the limit is null in a class that does not limit it."""
     return {
         "value": finite(worst.value),
         "limit": worst.limits.get(device_class),

@@ -3,11 +3,8 @@
 from errno import EPIPE
 from typing import Any
 
-from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import Progress
-from rich.table import Table
-from rich.text import Text
 
 from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult, Verdict
 from floatref_conformance.classes import DeviceClass
@@ -23,10 +20,11 @@ from floatref_conformance.judge.events import (
     ShrinkStarted,
 )
 from floatref_conformance.render import wording
+from floatref_conformance.render.check_table import check_table
 from floatref_conformance.render.text import printable
 
-COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "red", Outcome.ERROR: "red"}
-COLUMNS = ("check", "outcome", "class reached", "cases", "worst", "limit", "margin")
+FAILURES = (*wording.FAILED, Outcome.WAIVED)
+"""Outcomes whose reason is shown without `--verbose`, too."""
 PLAIN_WIDTH = 100
 """Columns of the table when the width of the output is unknown."""
 
@@ -43,11 +41,10 @@ class PipedConsole(Console):
 class TerminalRenderer:
     """Writes to ``console`` as the run goes on, and the result at its end."""
 
-    def __init__(self, console: Console | None = None) -> None:
-        """Write to ``console``, or else to standard output."""
-        self.console = console or PipedConsole(emoji=False)
-        if not self.console.is_terminal:
-            self.console.width = max(self.console.width, PLAIN_WIDTH)
+    def __init__(self, console: Console | None = None, verbose: bool = False) -> None:
+        """Write to ``console``, or else to standard output; ``verbose`` adds the details."""
+        self.console = console or make_console()
+        self.verbose = verbose
         self._progress: Progress | None = None
         self._task: Any = None
 
@@ -102,20 +99,34 @@ class TerminalRenderer:
 
     def _print_result(self, result: RunResult) -> None:
         self.close()
-        self.console.print(_table(result))
-        for line in result_lines(result):
+        self.console.print(check_table(result, self.console), crop=False)
+        for line in result_lines(result, self.verbose):
             self._print(line)
 
     def _print(self, text: str) -> None:
         self.console.print(printable(text), markup=False, highlight=False, soft_wrap=True)
 
 
-def result_lines(result: RunResult) -> list[str]:
-    """Return the lines about ``result`` below the table: every check, the verdict, what to do."""
+def make_console(stderr: bool = False) -> PipedConsole:
+    """Return a console of standard output, or of standard error.
+
+    It has `PLAIN_WIDTH` columns at least where it is no terminal.
+    """
+    console = PipedConsole(emoji=False, stderr=stderr)
+    if not console.is_terminal:
+        console.width = max(console.width, PLAIN_WIDTH)
+    return console
+
+
+def result_lines(result: RunResult, verbose: bool = False) -> list[str]:
+    """Return the lines about ``result`` below the table: the checks, the verdict, what to do.
+
+    Those of a check without a failure or a warning are there if ``verbose``.
+    """
     lines: list[str] = []
     for check in result.checks:
         if check.outcome is not Outcome.SKIP or check.cases:
-            lines += _check_lines(check, result.device_class)
+            lines += _check_lines(check, result.device_class, verbose)
     lines += [wording.replayed_line(replayed) for replayed in result.replayed]
     lines += [*wording.not_run_lines(result), wording.verdict_line(result)]
     if result.verdict is Verdict.FAIL:
@@ -123,16 +134,19 @@ def result_lines(result: RunResult) -> list[str]:
     return lines
 
 
-def _check_lines(check: CheckResult, device_class: DeviceClass) -> list[str]:
-    parts = [part for part in (check.reason, wording.describe_worst(check, device_class)) if part]
-    lines = [f"{check.id}: {'; '.join(parts)} [{check.clause}]"]
-    if check.flagged_m:
+def _check_lines(check: CheckResult, device_class: DeviceClass, verbose: bool) -> list[str]:
+    worst = wording.describe_worst(check, device_class) if verbose else ""
+    parts = [part for part in (check.reason, worst) if part]
+    lines = []
+    if verbose or check.outcome in FAILURES:
+        lines.append(f"{check.id}: {'; '.join(parts)} [{check.clause}]")
+    if verbose and check.flagged_m:
         lines.append(f"{check.id}: {wording.describe_flagged(check)}")
     if check.early_m:
         lines.append(f"{check.id}: {wording.describe_early(check)}")
     if check.false_alarms:
         lines.append(f"{check.id}: {wording.describe_false_alarms(check)}")
-    if check.counterexample is not None:
+    if verbose and check.counterexample is not None:
         lines.append(f"{check.id}: {wording.simplest(check.counterexample)}")
     return lines
 
@@ -152,25 +166,3 @@ def _what_to_do(result: RunResult) -> list[str]:
 def _in_words(result: CheckResult) -> str:
     words = wording.outcome_in_words(result)
     return words + (f" ({result.reason})" if result.reason else "")
-
-
-def _table(result: RunResult) -> Table:
-    table = Table(*COLUMNS, box=SIMPLE_HEAD, pad_edge=False)
-    for check in result.checks:
-        if check.outcome is not Outcome.SKIP or check.cases:
-            word = Text(wording.outcome_in_words(check), COLOURS.get(check.outcome, "yellow"))
-            cells = [check.class_reached or "no class", str(check.cases), *_numbers(check, result)]
-            table.add_row(Text(check.id), word, *map(Text, cells))
-    return table
-
-
-def _numbers(check: CheckResult, result: RunResult) -> tuple[str, str, str]:
-    worst, device_class = check.worst, result.device_class
-    if worst is None or wording.why_unlimited(check, device_class):
-        return ("no limit", "", "") if worst else ("", "", "")
-    left = wording.margin(worst, device_class)
-    return (
-        wording.quantity(worst.value, worst.unit),
-        wording.limit_in_words(worst, device_class),
-        "no limit" if left is None else f"{left:.0%}",
-    )

@@ -60,14 +60,14 @@ def limit_in_words(worst: Measurement, device_class: DeviceClass) -> str:
 
 
 def describe_worst(check: CheckResult, device_class: DeviceClass) -> str:
-    """Return what the worst value of a check is a value of, and in which case it was found.
+    """Return what the value of the judge's table is a value of, and in which case it was found.
 
     Where `why_unlimited`, the reason in its place.
     """
-    worst = check.worst
+    worst = check.shown
     if worst is None or why_unlimited(check, device_class):
         return why_unlimited(check, device_class)
-    case = f", case {check.worst_case}" if check.worst_case else ""
+    case = f", case {check.shown_case}" if check.shown_case else ""
     return f"worst is the {worst.quantity} of track {worst.track}{case}"
 
 
@@ -76,7 +76,7 @@ def why_unlimited(check: CheckResult, device_class: DeviceClass) -> str:
 
     A class may limit valid points only, and the device may flag all points as invalid.
     """
-    if check.worst is None or device_class in check.worst.limits:
+    if check.shown is None or device_class in check.shown.limits:
         return ""
     if check.flagged_m:
         return f"no value that class {device_class} limits was valid"

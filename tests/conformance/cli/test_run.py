@@ -12,7 +12,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from floatref_conformance.checks.catalogue import IDS
-from floatref_conformance.cli import following
+from floatref_conformance.cli import run as run_command
 from floatref_conformance.judge import trial
 from floatref_conformance.render.terminal import PipedConsole, TerminalRenderer
 from floatref_conformance.schemas import read_schema
@@ -143,7 +143,7 @@ def test_a_run_goes_on_and_reports_when_nobody_reads_what_it_shows(
     run_toy, tmp_path, monkeypatch, unread, device, code
 ):
     assert run_toy(device, "--report", tmp_path / "read").exit_code == code
-    monkeypatch.setattr(following, "TerminalRenderer", lambda: TerminalRenderer(unread))
+    monkeypatch.setattr(run_command, "TerminalRenderer", lambda *_: TerminalRenderer(unread))
     answer = run_toy(device, "--report", tmp_path / "unread")
     assert (answer.exit_code, answer.stdout) == (code, "")
     assert files_in(tmp_path / "unread") == files_in(tmp_path / "read")

@@ -63,6 +63,8 @@ def check(stopped):
             "stop-2" if worst else "",
             found if failed else None,
             passes=(stopped,) if outcome is Outcome.FAIL else (),
+            shown=worst,
+            shown_case="stop-2" if worst else "",
         )
         return replace(made, **changes)
 

@@ -19,7 +19,7 @@ KEYS = {
     "checks", "replayed",
 }  # fmt: skip
 CHECK_KEYS = {
-    "id", "outcome", "reason", "class_reached", "cases", "worst", "clause", "flagged_m",
+    "id", "outcome", "reason", "class_reached", "cases", "worst", "shown", "clause", "flagged_m",
     "counterexample",
 }  # fmt: skip
 

@@ -21,9 +21,9 @@ from floatref_conformance.judge.events import (
 from floatref_conformance.render.terminal import TerminalRenderer
 
 
-def shown(*events, terminal=False):
+def shown(*events, terminal=False, verbose=False):
     file = StringIO()
-    renderer = TerminalRenderer(Console(file=file, force_terminal=terminal, width=150))
+    renderer = TerminalRenderer(Console(file=file, force_terminal=terminal, width=150), verbose)
     for event in events:
         renderer.handle(event)
     renderer.close()
@@ -31,7 +31,8 @@ def shown(*events, terminal=False):
 
 
 def test_a_failure_names_its_case_and_the_simplest_one(check, result):
-    text = shown(RunFinished(result(check(Outcome.FAIL, reason="3 m/km, limit 1 m/km"))))
+    failed = result(check(Outcome.FAIL, reason="3 m/km, limit 1 m/km"))
+    text = shown(RunFinished(failed), verbose=True)
     assert "stop: 3 m/km, limit 1 m/km; worst is the IRI error of track left, case stop-2" in text
     simplest = "manoeuvre stop, speed_kmh 60, bump_mm 20, bump_at_m 150, gap_s 0.25"
     simplest_line = next(
@@ -54,10 +55,27 @@ def test_no_value_is_shown_that_the_class_does_not_limit(check, result, flagged_
     slow = check(Outcome.PASS, value=nan, limits={DeviceClass.ADEQUATE: 0.08}, flagged_m=flagged_m)
     lines = shown(RunFinished(result(slow))).splitlines()
     row = next(line for line in lines if line.startswith(" stop"))
-    assert row.split() == ["stop", "pass", "nominal", "4", "no", "limit"]
-    assert f"stop: no value that class nominal limits {end} [R 56-14, 6]" in lines
-    limited = "\n".join(shown(RunFinished(result(slow, device_class=DeviceClass.ADEQUATE))))
+    why = f"no value that class nominal limits {end}"
+    assert row.split() == ["stop", "pass", "nominal", "4", *why.split()]
+    assert f"stop: {why} [R 56-14, 6]" in shown(RunFinished(result(slow)), verbose=True)
+    limited = shown(RunFinished(result(slow, device_class=DeviceClass.ADEQUATE)), verbose=True)
     assert "no value that" not in limited
+
+
+@pytest.mark.parametrize("outcome", Outcome)
+def test_only_what_fails_has_a_line_below_the_table_unless_details_are_asked_for(
+    check, result, outcome
+):
+    made = result(check(outcome, reason="why so", cases=4, flagged_m=7.0))
+    short, whole = (shown(RunFinished(made), verbose=v).splitlines() for v in (False, True))
+    about = [line for line in short if line.startswith("stop: ")]
+    fails = outcome in (Outcome.FAIL, Outcome.ERROR, Outcome.WAIVED)
+    assert about == ["stop: why so [R 56-14, 6]"] * fails
+    details = [line for line in whole if line.startswith("stop: ")]
+    assert "stop: up to 7.0 m of a wheel path flagged invalid" in details
+    assert [line for line in whole if line not in details] == [
+        line for line in short if line not in about
+    ]
 
 
 def test_a_kept_case_that_still_fails_is_told_with_the_command_that_runs_it(check, result, kept):

@@ -86,6 +86,7 @@ def measure_fault(
         max(flagged_m, 0.0),
         "m",
         FLAGGED_LIMITS[part],
+        is_flagged_length=True,
     )
     unflagged = after.unflagged()
     if unflagged is None:
