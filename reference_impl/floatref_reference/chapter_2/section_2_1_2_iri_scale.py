@@ -18,7 +18,8 @@ def segment_iri(
     Equation:
         Step 4 of section 2.1.1 over each segment of one pass of the car over the whole
         profile. Segment m ends at the point nearest to m times the length; the last one may
-        be shorter.
+        be shorter, but a rest of less than a tenth of the length belongs to the segment before it
+        (23 CFR 490.309: sections of 0.1 mile are at most 0.11 mile long).
 
     Args:
         z: elevation, m, shape (N,), N ≥ 2.
@@ -29,12 +30,36 @@ def segment_iri(
         Start, m from the first point, length, m, and IRI, m/km, of each segment.
     """
     trace = np.abs(iri_trace(z, dx))
-    segments: list[tuple[float, float, np.longdouble]] = []
+    return [
+        (begin * dx, (end - begin) * dx, mean(trace[begin:end]))
+        for begin, end in segment_ends(len(trace), dx, length)
+    ]
+
+
+def segment_ends(count: int, dx: float, length: float = SEGMENT_LENGTH) -> list[tuple[int, int]]:
+    """Divide a profile into segments.
+
+    Equation:
+        Segment m ends at round(m length / Δx); a rest of less than length/10 joins the one before.
+
+    Args:
+        count: number of intervals.
+        dx: constant interval Δx, m.
+        length: nominal segment length, m.
+
+    Returns:
+        The first interval of each segment, and the one behind its last.
+    """
+    segments: list[tuple[int, int]] = []
     begin = 0
-    while begin < len(trace):
-        end = min(max(round((len(segments) + 1) * length / dx), begin + 1), len(trace))
-        segments.append((begin * dx, (end - begin) * dx, mean(trace[begin:end])))
+    while begin < count:
+        end = min(max(round((len(segments) + 1) * length / dx), begin + 1), count)
+        segments.append((begin, end))
         begin = end
+    # Nine digits decide whether it is exactly a tenth: Δx and length are rounded numbers.
+    if len(segments) > 1 and (count - segments[-1][0]) * dx < length / 10 * (1 - 1e-9):
+        rest = segments.pop()
+        segments[-1] = (segments[-1][0], rest[1])
     return segments
 
 

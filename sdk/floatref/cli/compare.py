@@ -1,16 +1,29 @@
 """`floatref compare`: the agreement of a profile with a reference, wheel path by wheel path."""
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
-from floatref.cli.printing import number, print_json, print_settings, print_table
+from floatref.cli.printing import (
+    PERCENT_OF_VALID,
+    explain_mark,
+    marked,
+    number,
+    percent,
+    print_json,
+    print_settings,
+    print_table,
+)
 from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
 from floatref.measures import WAVEBANDS, IriSettings, agreement, iri, on_common_grid
+from floatref.measures.valid_iri import iri_of_common_points
 from floatref.values.profile import Profile
+
+OF_VALID = ("iri_of_valid_m_per_km", "iri_reference_of_valid_m_per_km")
 
 
 @click.command("compare")
@@ -34,7 +47,7 @@ def compare(
 
     Wheel paths are matched by name; PROFILE may have others. It is interpolated linearly at the
     points of REFERENCE where both overlap. An offset above zero means that PROFILE lies farther
-    along.
+    along. Both IRIs of valid points are over the stretches in which both profiles are valid.
     """
     expected, found = profile_of(reference), profile_of(profile)
     with name_errors(f"{reference} and {profile}"):
@@ -85,6 +98,7 @@ def _track_report(
     """Return agreement and IRI of the wheel path ``name``."""
     interval = reference.interval_m
     p, q = reference.track(name).elevation, profile.track(name).elevation
+    valid = iri_of_common_points(reference.track(name), profile.track(name), interval)
     with name_errors(f"track {name}"):
         found = agreement(p, q, interval, "iri", max_offset_m)
         bands = {
@@ -101,37 +115,66 @@ def _track_report(
             "correlation": found.correlation,
             "amplitude_factor": found.amplitude_factor,
             "wavebands": bands,
+            "iri_of_valid_m_per_km": valid.profile_m_per_km,
+            "iri_reference_of_valid_m_per_km": valid.reference_m_per_km,
+            "counted_share": valid.counted_share,
         }
 
 
 def _print_tables(report: dict[str, Any]) -> None:
-    """Print the agreement of every wheel path, then the settings."""
+    """Print the agreement of every wheel path, the IRI of its valid points, and the settings."""
+    tracks = report["tracks"]
     columns = ("track", "cross correlation", "offset m", "IRI m/km", "reference m/km", "difference")
     rows = [
         [
-            track["name"],
+            _name(track),
             number(track["cross_correlation"], 4),
             number(track["offset_m"], 4),
             number(track["iri_m_per_km"]),
             number(track["iri_reference_m_per_km"]),
             _difference(track["iri_m_per_km"], track["iri_reference_m_per_km"]),
         ]
-        for track in report["tracks"]
+        for track in tracks
     ]
     print_table("Agreement of the IRI filter's output", columns, rows)
+    _print_valid(tracks)
     bands = [
         [
-            track["name"],
+            _name(track),
             *(number(track["wavebands"].get(band, float("nan")), 4) for band in WAVEBANDS),
         ]
-        for track in report["tracks"]
+        for track in tracks
     ]
     print_table("Cross correlation of slope by waveband", ("track", *WAVEBANDS), bands)
+    some = any(track["counted_share"] < 1.0 for track in tracks)
+    explain_mark(some, "all figures but those of valid points have the others too")
     if report["not_compared"]:
         click.echo(f"Not in the reference: {', '.join(report['not_compared'])}\n")
     print_settings(report["settings"])
 
 
+def _print_valid(tracks: Sequence[Mapping[str, Any]]) -> None:
+    """Print both IRIs over the points that are valid in both, and their share."""
+    columns = ("track", "IRI m/km", "reference m/km", "difference", PERCENT_OF_VALID)
+    rows = []
+    for track in tracks:
+        found, expected = (track[key] for key in OF_VALID)
+        rows.append(
+            [
+                track["name"],
+                number(found),
+                number(expected),
+                _difference(found, expected),
+                percent(track["counted_share"]),
+            ]
+        )
+    print_table("IRI of valid points", columns, rows)
+
+
+def _name(track: Mapping[str, Any]) -> str:
+    return marked(track["name"], track["counted_share"] < 1.0)
+
+
 def _difference(value: float, expected: float) -> str:
-    """Return the difference of an IRI from the expected one, in per cent."""
-    return f"{100.0 * (value / expected - 1.0):+.2f} %" if expected else "–"
+    """Return the difference of an IRI from the expected one, in per cent, if there is one."""
+    return f"{100.0 * (value / expected - 1.0):+.2f} %" if expected > 0.0 else "–"

@@ -19,6 +19,8 @@ PIPED_WIDTH = 240
 """Width of a table outside a terminal, in characters."""
 PERCENT_OF_VALID = "valid %"
 """Heading of a column of `percent`."""
+MARK = "*"
+"""What follows the name of a wheel path of which not all points are valid."""
 
 
 def print_json(report: Mapping[str, Any]) -> None:
@@ -65,6 +67,17 @@ def number(value: float, digits: int = 3) -> str:
 def percent(share: float) -> str:
     """Return a ``share``, 0 to 1, in per cent, rounded down so that 100.0 means all of it."""
     return number(floor(1000.0 * share) / 10.0, 1) if share == share else number(share)
+
+
+def marked(name: str, is_marked: bool) -> str:
+    """Return ``name``, with a mark if ``is_marked``: `explain_mark` says what it means."""
+    return f"{name} {MARK}" if is_marked else name
+
+
+def explain_mark(is_marked: bool, about: str) -> None:
+    """Print, if anything is marked, what the mark says ``about`` the figures above."""
+    if is_marked:
+        click.echo(f"{MARK} not all points are valid: {about}\n")
 
 
 def print_areas(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> None:

@@ -7,14 +7,15 @@ of its own, at whose start the car is at rest, and the longer one counts for mor
 """
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures.roughness.gaps import measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
-from floatref.measures.roughness.roughness_index import STANDARD, iri
-from floatref.values.arrays import BoolArray
+from floatref.measures.roughness.roughness_index import STANDARD, iri, rectified_sums
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.display.iri_table import ProfileIri, TrackIri
 from floatref.values.profile import Profile, ProfileTrack
 
@@ -42,11 +43,68 @@ def valid_stretches(
         yield slice(int(firsts[at]), int(ends[at]))
 
 
-def _track_iri(track: ProfileTrack, interval_m: float, settings: IriSettings) -> TrackIri:
+def sums_of_valid(
+    track: ProfileTrack,
+    edges: IndexArray,
+    interval_m: float,
+    settings: IriSettings = STANDARD,
+) -> tuple[FloatArray, IndexArray]:
+    """Return of every segment the sum of the rectified output in m/km, and its intervals, (n,).
+
+    Only stretches of valid points count. ``edges``, shape (n + 1,), are the first interval of every
+    segment and the end. Raises InputError as `profile_iri`, without the name of the wheel path.
+    """
+    sums, counts = np.zeros(edges.size - 1), np.zeros(edges.size - 1, dtype=np.int64)
+    for stretch in valid_stretches(track.valid, interval_m, settings):
+        first, end = stretch.start, stretch.stop - 1
+        low = int(np.searchsorted(edges, first, side="right")) - 1
+        high = int(np.searchsorted(edges, end))
+        inside = np.clip(edges[low : high + 1], first, end) - first
+        z = track.elevation[stretch]
+        sums[low:high] += rectified_sums(z, interval_m, inside, settings)
+        counts[low:high] += np.diff(inside)
+    return sums, counts
+
+
+@dataclass(frozen=True)
+class CommonIri:
+    """IRI in m/km of a reference and a profile over the points that are valid in both.
+
+    ``counted_share`` is the share of all intervals that both are over, 0 to 1.
+    """
+
+    reference_m_per_km: float
+    profile_m_per_km: float
+    counted_share: float
+
+
+def iri_of_common_points(
+    reference: ProfileTrack, profile: ProfileTrack, interval_m: float
+) -> CommonIri:
+    """Return the IRI of both over the stretches in which both are valid; they have equal points.
+
+    NaN where no stretch is long enough. Raises InputError as `profile_iri`.
+    """
+    both = reference.valid & profile.valid
+    (expected, share), (found, _) = (
+        _named(replace(track, valid=both), interval_m, STANDARD) for track in (reference, profile)
+    )
+    return CommonIri(expected, found, share)
+
+
+def _named(track: ProfileTrack, interval_m: float, settings: IriSettings) -> tuple[float, float]:
+    """Return what `_iri_of_valid` does, with the name of the wheel path in its errors."""
     try:
         # The window of the moving average checks the interval.
         settings.window(interval_m)
-        valid, share = _iri_of_valid(track, interval_m, settings)
+        return _iri_of_valid(track, interval_m, settings)
+    except InputError as error:
+        raise InputError(f"track {track.name}: {error}") from error
+
+
+def _track_iri(track: ProfileTrack, interval_m: float, settings: IriSettings) -> TrackIri:
+    valid, share = _named(track, interval_m, settings)
+    try:
         every = _iri_of_all(track, interval_m, settings)
     except InputError as error:
         raise InputError(f"track {track.name}: {error}") from error
@@ -57,11 +115,9 @@ def _iri_of_valid(
     track: ProfileTrack, interval_m: float, settings: IriSettings
 ) -> tuple[float, float]:
     """Return the IRI in m/km over all stretches of valid points, and their share of the road."""
-    total, count = 0.0, 0
-    for stretch in valid_stretches(track.valid, interval_m, settings):
-        intervals = stretch.stop - stretch.start - 1
-        total += intervals * iri(track.elevation[stretch], interval_m, settings)
-        count += intervals
+    edges = np.array([0, track.valid.size - 1], dtype=np.int64)
+    sums, counts = sums_of_valid(track, edges, interval_m, settings)
+    total, count = float(sums[0]), int(counts[0])
     return (total / count, count / (track.valid.size - 1)) if count else (np.nan, 0.0)
 
 

@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from floatref.errors import InputError
 from floatref.measures import agreement, high_pass, on_common_grid
+from floatref.measures.valid_iri import CommonIri, iri_of_common_points
 from floatref.plots.figure import (
     COLOURS,
     REFERENCE_COLOUR,
     check_suffix,
     in_readable_unit,
     legend,
-    line,
     new_figure,
-    roughness,
     save,
     shade,
     title,
 )
+from floatref.plots.validity_marks import draw_marked, iri_text, roughness_of
 from floatref.values.profile import Profile, ProfileTrack
 
 if TYPE_CHECKING:
@@ -36,9 +37,10 @@ def draw_comparison(
 
     One column for each wheel path of the reference: both elevations, high-pass filtered alike with
     −3 dB at 91.44 m, their difference, and both short-interval roughness profiles in m/km. The
-    title holds the agreement (2.16) within ±``max_offset_m``. Invalid points of ``profile`` are
-    shaded. Raises InputError if a wheel path is missing in ``profile``, the two do not overlap,
-    matplotlib is missing, or ``path`` cannot be written.
+    title holds the agreement (2.16) within ±``max_offset_m``. Points that are not valid in both are
+    shaded and dotted, and the IRIs are over the others, with their share. Raises InputError if a
+    wheel path is missing in ``profile``, the two do not overlap, matplotlib is missing, or ``path``
+    cannot be written.
     """
     path = Path(path)
     check_suffix(path)
@@ -56,19 +58,20 @@ def _draw_track(
     column: Sequence[Axes], expected: ProfileTrack, found: ProfileTrack, grid: Profile
 ) -> None:
     """Draw the three panels of one wheel path."""
+    both = expected.valid & found.valid
     z = [high_pass(track.elevation, grid.interval_m) for track in (expected, found)]
     factor, unit = in_readable_unit(*z)
     x = grid.distance_m
     elevation_ax, difference_ax, _ = column
-    line(elevation_ax, x, factor * z[0], color=REFERENCE_COLOUR, label="reference")
-    line(elevation_ax, x, factor * z[1], color=COLOURS[0], label="profile")
+    draw_marked(elevation_ax, x, factor * z[0], both, REFERENCE_COLOUR, "reference")
+    draw_marked(elevation_ax, x, factor * z[1], both, COLOURS[0], "profile")
     elevation_ax.set_ylabel(f"Elevation, wavelengths\nto 91 m ({unit})")
     difference_factor, difference_unit = in_readable_unit(z[1] - z[0])
-    line(difference_ax, x, difference_factor * (z[1] - z[0]), color=COLOURS[1])
+    draw_marked(difference_ax, x, difference_factor * (z[1] - z[0]), both, COLOURS[1])
     difference_ax.set_ylabel(f"Profile − reference\n({difference_unit})")
     _draw_roughness(column[2], expected, found, grid)
     for row, ax in enumerate(column):
-        shade(ax, x, ~found.valid, "not valid" if row == 0 else None)
+        shade(ax, x, ~both, "not valid" if row == 0 else None)
     for ax in (column[0], column[2]):
         legend(ax)
 
@@ -76,13 +79,25 @@ def _draw_track(
 def _draw_roughness(ax: Axes, expected: ProfileTrack, found: ProfileTrack, grid: Profile) -> None:
     """Draw both short-interval roughness profiles, with the IRIs in the legend."""
     middle = grid.distance_m[:-1] + grid.interval_m / 2.0
-    sides = (("reference", expected, REFERENCE_COLOUR), ("profile", found, COLOURS[0]))
-    for name, track, colour in sides:
-        trace, value = roughness(track.elevation, grid.interval_m)
-        label = f"{name}: IRI {value:.2f} m/km" if value == value else f"{name}: no IRI"
-        line(ax, middle, trace, color=colour, label=label)
+    valid, values = expected.valid & found.valid, _common_iri(expected, found, grid.interval_m)
+    sides = (
+        ("reference", expected, REFERENCE_COLOUR, values.reference_m_per_km),
+        ("profile", found, COLOURS[0], values.profile_m_per_km),
+    )
+    for name, track, colour, value in sides:
+        trace, counted = roughness_of(replace(track, valid=valid), grid.interval_m)
+        label = f"{name}: {iri_text(value, values.counted_share)}"
+        draw_marked(ax, middle, trace, counted, colour, label)
     ax.set_ylabel("Roughness over\n7.62 m (m/km)")
     ax.set_ylim(bottom=0.0)
+
+
+def _common_iri(expected: ProfileTrack, found: ProfileTrack, interval_m: float) -> CommonIri:
+    """Return the IRI of both over common valid points; NaN for an interval too long for the car."""
+    try:
+        return iri_of_common_points(expected, found, interval_m)
+    except InputError:
+        return CommonIri(float("nan"), float("nan"), 0.0)
 
 
 def _title(
@@ -95,7 +110,9 @@ def _title(
         )
     except InputError:
         return f"{expected.name}: too little in common for an agreement"
+    sound = bool((expected.valid & found.valid).all())
+    invalid = "" if sound else ", with points that are not valid"
     return (
         f"{expected.name}: agreement {result.cross_correlation:.3f} "
-        f"at an offset of {result.offset_m:+.3f} m"
+        f"at an offset of {result.offset_m:+.3f} m{invalid}"
     )

@@ -16,11 +16,11 @@ from floatref.plots.figure import (
     legend,
     line,
     new_figure,
-    roughness,
     save,
     shade,
     title,
 )
+from floatref.plots.validity_marks import draw_marked, iri_labels, roughness_of
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 
@@ -36,9 +36,9 @@ def draw_profile(
     """Write a drawing of ``profile`` to ``path`` (.png, .pdf or .svg).
 
     Elevation, short-interval roughness in m/km, and ``speed`` if given, as distances in m and
-    speeds in m/s, if any of them is finite. Points that are not valid for a wheel path are shaded.
-    Raises InputError for an elevation beyond 1000 km, if matplotlib is missing or ``path`` cannot
-    be written.
+    speeds in m/s, if any of them is finite. Points that are not valid for a wheel path are shaded,
+    and dotted in it; its IRI is that of valid points with the share that counts. Raises InputError
+    for an elevation beyond 1000 km, if matplotlib is missing or ``path`` cannot be written.
     """
     path = Path(path)
     check_suffix(path)
@@ -66,22 +66,16 @@ def draw_profile(
 def _draw_elevation(ax: Axes, profile: Profile) -> None:
     factor, unit = in_readable_unit(*(track.elevation for track in profile.tracks))
     for track, colour in zip(profile.tracks, _colours(profile), strict=True):
-        line(
-            ax,
-            profile.distance_m,
-            factor * track.elevation,
-            color=colour,
-            label=label_of(track.name),
-        )
+        z, name = factor * track.elevation, label_of(track.name)
+        draw_marked(ax, profile.distance_m, z, track.valid, colour, name)
     ax.set_ylabel(f"Elevation ({unit})")
 
 
 def _draw_roughness(ax: Axes, profile: Profile) -> None:
     middle = profile.distance_m[:-1] + profile.interval_m / 2.0
-    for track, colour in zip(profile.tracks, _colours(profile), strict=True):
-        trace, value = roughness(track.elevation, profile.interval_m)
-        found = f"IRI {value:.2f} m/km" if value == value else "no IRI"
-        line(ax, middle, trace, color=colour, label=f"{label_of(track.name)}: {found}")
+    labels = iri_labels(profile)
+    for track, colour, label in zip(profile.tracks, _colours(profile), labels, strict=True):
+        draw_marked(ax, middle, *roughness_of(track, profile.interval_m), colour, label)
     ax.set_ylabel("Roughness over\n7.62 m (m/km)")
     ax.set_ylim(bottom=0.0)
 

@@ -20,6 +20,9 @@ SUMMARY_COLUMNS = (
     "iri_m_per_km",
     "mean_roughness_index_m_per_km",
     "flagged_m",
+    "iri_of_valid_m_per_km",
+    "counted_share",
+    "mean_roughness_index_of_valid_m_per_km",
 )
 """Columns of a summary that its drawing needs."""
 FAILED = "failed"
@@ -31,7 +34,10 @@ class Segments:
 
     Attributes:
         file: index of the segment's file among the files.
-        roughness: mean roughness index, else the mean IRI of its wheel paths, in m/km.
+        roughness: mean roughness index of valid points, else the mean IRI of valid points of its
+            wheel paths, in m/km; NaN where no wheel path has one.
+        counted_share: the share of its length that this is over, 0 to 1: the smallest of the wheel
+            paths.
         length_m: of the segment.
         flagged_m: invalid length, the mean of the wheel paths.
         latitude, longitude: of its start in degrees; longitudes do not jump at 180.
@@ -41,6 +47,7 @@ class Segments:
 
     file: NDArray[np.intp]
     roughness: FloatArray
+    counted_share: FloatArray
     length_m: FloatArray
     flagged_m: FloatArray
     latitude: FloatArray
@@ -48,6 +55,11 @@ class Segments:
     paired: BoolArray
     names: tuple[str, ...]
     failed: BoolArray
+
+    @property
+    def marked(self) -> BoolArray:
+        """Whether its roughness is over a part of it only."""
+        return np.asarray(self.counted_share < 1.0)
 
 
 def segments_of(columns: Mapping[str, Sequence[Any]]) -> Segments:
@@ -67,10 +79,11 @@ def segments_of(columns: Mapping[str, Sequence[Any]]) -> Segments:
     keys = file * (part.max(initial=0) + 2) + part
     _, first, which = np.unique(keys, return_index=True, return_inverse=True)
     mean = {name: _means(column, which, first.size) for name, column in values.items()}
-    index = mean["mean_roughness_index_m_per_km"]
+    index = mean["mean_roughness_index_of_valid_m_per_km"]
     return Segments(
         file=file[first],
-        roughness=np.where(np.isnan(index), mean["iri_m_per_km"], index),
+        roughness=np.where(np.isnan(index), mean["iri_of_valid_m_per_km"], index),
+        counted_share=_smallest(values["counted_share"], which, first.size),
         length_m=mean["length_m"],
         flagged_m=mean["flagged_m"],
         latitude=mean["latitude_deg"],
@@ -99,6 +112,13 @@ def _means(values: FloatArray, which: NDArray[np.intp], count: int) -> FloatArra
     numbers = np.bincount(which[there], minlength=count)
     found: FloatArray = np.full(count, np.nan)
     np.divide(sums, numbers, out=found, where=numbers > 0)
+    return found
+
+
+def _smallest(shares: FloatArray, which: NDArray[np.intp], count: int) -> FloatArray:
+    """Return the smallest share for each of ``count`` segments; an unknown one is 0."""
+    found = np.ones(count)
+    np.minimum.at(found, which, np.nan_to_num(shares))
     return found
 
 

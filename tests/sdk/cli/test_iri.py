@@ -39,9 +39,10 @@ def test_measured_road_as_a_profile_directory_has_its_value(one: Path, reported)
     (track,) = found["tracks"]
     assert track["name"] == "main"
     assert track["iri_m_per_km"] == pytest.approx(3.334, rel=1e-3)
-    assert track["segments"] == [
-        {"start_m": 478.0, "length_m": 544.0, "iri_m_per_km": track["iri_m_per_km"]}
-    ]
+    (segment,) = track["segments"]
+    assert (segment["start_m"], segment["length_m"]) == (478.0, 544.0)
+    assert segment["iri_m_per_km"] == track["iri_m_per_km"] == track["iri_of_valid_m_per_km"]
+    assert track["counted_share"] == 1.0
     assert found["mean_roughness_index_m_per_km"] is None
     assert found["settings"]["moving_average_samples"] == 1
     assert found["settings"]["start_length_m"] == 11.0
@@ -86,7 +87,10 @@ def test_table_is_plain_when_piped_and_prints_the_settings(two: Path, invoke) ->
     assert "\x1b" not in text
     assert "IRI in/mi" in text
     assert "mean roughness index" in text
-    assert "left    878.00    144.00" in text
+    lines = [line.split() for line in text.splitlines()]
+    assert ["left", "*", "478.00", "200.00"] in [line[:4] for line in lines]
+    assert ["left", "878.00", "144.00"] in [line[:3] for line in lines]
+    assert "* not all points are valid" in text
     for line in ("interval_m              0.25", "start_length_m          11.0", "segment_m"):
         assert line in text
 

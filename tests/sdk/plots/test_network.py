@@ -18,13 +18,15 @@ from floatref.plots import SUMMARY_COLUMNS, draw_summary
 from floatref.plots.network_columns import segments_of
 
 Columns = dict[str, Sequence[Any]]
+IRI = "iri_of_valid_m_per_km"
 SHORT = {
     "length": "length_m",
     "lat": "latitude_deg",
     "lon": "longitude_deg",
-    "iri": "iri_m_per_km",
-    "index": "mean_roughness_index_m_per_km",
+    "iri": "iri_of_valid_m_per_km",
+    "index": "mean_roughness_index_of_valid_m_per_km",
     "flagged": "flagged_m",
+    "share": "counted_share",
 }
 
 
@@ -49,6 +51,7 @@ def network(located: bool, paths: int = 1, files: int = 3) -> Columns:
         index = float(iri.mean()) if paths == 2 else None
         for at in range(paths):
             one = row(f"{file}.mf4", segment, length=100.0, iri=iri[at], index=index, flagged=20.0)
+            one["counted_share"] = 0.8
             rows.append(one | {SHORT[key]: value for key, value in place.items()})
     return columns(*rows)
 
@@ -67,8 +70,8 @@ def test_lengths_shares_and_failures_are_told(tmp_path: Path, located: bool, pat
     text = text_of(tmp_path / "n.svg")
     assert "4 files (1 failed), 6.0 km, 60 segments" in text
     assert "not valid: 20.0 %" in text
-    assert ("Mean roughness index (m/km)" in text) == (paths == 2)
-    assert ("IRI (m/km)" in text) == (paths == 1)
+    assert ("Mean roughness index of valid points (m/km)" in text) == (paths == 2)
+    assert ("IRI of valid points (m/km)" in text) == (paths == 1)
     assert ("Longitude (°)" in text) == located
     assert ("bad.mf4" in text) != located
 
@@ -166,7 +169,7 @@ def test_the_index_of_two_paths_goes_before_their_mean() -> None:
 @pytest.mark.slow
 def test_one_wild_segment_does_not_hide_the_others(tmp_path: Path) -> None:
     given = network(False)
-    given["iri_m_per_km"] = [1e6, *given["iri_m_per_km"][1:]]
+    given[IRI] = [1e6, *given[IRI][1:]]
     bars = _drawn(given, tmp_path).axes[0].patches
     assert sum(bar.get_height() for bar in bars) == pytest.approx(6.0)
     draw_summary(given, tmp_path / "n.svg")
@@ -177,7 +180,7 @@ def test_one_wild_segment_does_not_hide_the_others(tmp_path: Path) -> None:
 def test_segments_without_a_position_or_an_iri_are_counted(tmp_path: Path) -> None:
     given = network(True)
     given["latitude_deg"] = [*[None] * 7, *given["latitude_deg"][7:]]
-    given["iri_m_per_km"] = [*[None] * 10, *given["iri_m_per_km"][10:]]
+    given[IRI] = [*[None] * 10, *given[IRI][10:]]
     draw_summary(given, tmp_path / "n.svg")
     text = text_of(tmp_path / "n.svg")
     assert "7 of 60 segments without a position" in text

@@ -9,6 +9,7 @@ from pathlib import Path
 from floatref.batch.jobs.defaults import Defaults, files_of, read_given_map
 from floatref.batch.jobs.job import Job
 from floatref.batch.jobs.manifest import is_manifest, read_manifest
+from floatref.batch.jobs.natural_order import natural_path_key
 from floatref.batch.jobs.recognition import (
     Kind,
     is_inside,
@@ -26,7 +27,7 @@ from floatref.mapping.channel_map.entries import ChannelMap
 
 
 def find_matches(text: str) -> tuple[Path, list[Path]]:
-    """Return the folder before the first pattern character, and the sorted matches of ``text``.
+    """Return the folder before the first pattern character, and the matches of ``text`` in order.
 
     Hidden files below that folder match only a pattern that names hidden files. Raises InputError
     for an invalid pattern.
@@ -35,7 +36,7 @@ def find_matches(text: str) -> tuple[Path, list[Path]]:
     first = next(at for at, part in enumerate(parts) if has_magic(part))
     base, rest = Path(*parts[:first]).absolute(), parts[first:]
     try:
-        found = sorted(base.glob("/".join(rest)))
+        found = sorted(base.glob("/".join(rest)), key=natural_path_key)
     except (ValueError, NotImplementedError) as error:
         raise InputError(f"{text}: bad pattern ({error}); write ** as a name of its own") from error
     if any(_hidden(rest)):

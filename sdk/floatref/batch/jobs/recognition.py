@@ -7,6 +7,7 @@ from pathlib import Path
 
 from floatref.batch.jobs.job import PROFILES, RECORDS
 from floatref.batch.jobs.manifest import is_manifest
+from floatref.batch.jobs.natural_order import natural_key
 from floatref.engine.formats import find_readers
 from floatref.errors import InputError
 from floatref.files.profile_directory import DOCUMENT as PROFILE
@@ -157,4 +158,4 @@ def _list(folder: Path) -> list[os.DirEntry[str]]:
     except OSError as error:
         reason = error.strerror or error
         raise InputError(f"{folder}: {reason}; make it readable, or leave it out") from error
-    return sorted(shown, key=lambda entry: entry.name, reverse=True)
+    return sorted(shown, key=lambda entry: natural_key(entry.name), reverse=True)

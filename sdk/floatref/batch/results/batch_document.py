@@ -6,6 +6,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from floatref.batch.jobs.natural_order import natural_key
 from floatref.batch.results.totals import Tally
 from floatref.files.atomic import replace_file
 from floatref.files.document import plain, write_document
@@ -55,7 +56,10 @@ def batch_document(command: Command, tally: Tally, finished: Finished) -> dict[s
         "warnings": tally.warnings,
         "effort": _effort(tally),
         "this_run": _this_run(tally, finished),
-        "failures": [{"name": name, "error": why} for name, why in sorted(tally.failed.items())],
+        "failures": [
+            {"name": name, "error": tally.failed[name]}
+            for name in sorted(tally.failed, key=natural_key)
+        ],
     }
     return {**plain(document, "batch")}
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from time import monotonic, sleep
 
 from floatref.batch.jobs.job import PROFILES, RECORDS, Job
+from floatref.batch.jobs.natural_order import natural_key
 from floatref.errors import InputError
 
 LOCK, WORKING = ".lock", ".working"
@@ -62,7 +63,8 @@ def not_given(out: Path, jobs: Iterable[Job]) -> tuple[str, ...]:
     given = {job.name for job in jobs}
     records = out / RECORDS
     found = (path.relative_to(records).as_posix() for path in records.rglob("*.json"))
-    return tuple(sorted({name.removesuffix(".json") for name in found} - given))
+    others = {name.removesuffix(".json") for name in found} - given
+    return tuple(sorted(others, key=natural_key))
 
 
 def _make(out: Path, resume: bool) -> bool:

@@ -31,7 +31,13 @@ class Row:
         latitude_deg, longitude_deg: where the segment starts; NaN where that is not known.
         iri_m_per_km: NaN where it cannot be calculated.
         mean_roughness_index_m_per_km: of both wheel paths; NaN unless there are two.
-        flagged_m: length of the points that are not valid.
+        flagged_m: length of the points that are not valid, at most ``length_m``.
+        iri_of_valid_m_per_km: over stretches of valid points; NaN without any.
+        counted_share: of the segment's length, in these stretches, 0 to 1.
+        iri_of_valid_low_m_per_km, iri_of_valid_high_m_per_km: its 95 % interval; NaN where the
+            profile has no 1-σ.
+        mean_roughness_index_of_valid_m_per_km: mean of both wheel paths; NaN unless both have one.
+        mean_roughness_index_counted_share: the smaller share of both; NaN unless there are two.
     """
 
     track: str
@@ -43,6 +49,12 @@ class Row:
     iri_m_per_km: float
     mean_roughness_index_m_per_km: float
     flagged_m: float
+    iri_of_valid_m_per_km: float = nan
+    counted_share: float = 0.0
+    iri_of_valid_low_m_per_km: float = nan
+    iri_of_valid_high_m_per_km: float = nan
+    mean_roughness_index_of_valid_m_per_km: float = nan
+    mean_roughness_index_counted_share: float = nan
 
 
 @dataclass(frozen=True)

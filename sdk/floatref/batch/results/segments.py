@@ -8,8 +8,9 @@ import numpy as np
 from floatref.batch.results.positions import places
 from floatref.batch.results.record import Row
 from floatref.errors import InputError
-from floatref.measures import IriSettings, iri_segments, mean_roughness_index
+from floatref.measures import IriSettings, mean_roughness_index
 from floatref.measures.roughness.roughness_index import segment_edges
+from floatref.measures.valid_segments import SegmentIri, invalid_lengths, segment_iris
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
@@ -21,24 +22,25 @@ def measure_segments(
     """Return the rows of ``profile``, cut every ``segment_m``, and the measures that failed.
 
     None for the whole profile as one segment; positions are those of ``recording``, if it has any.
-    The IRI is that of `floatref iri --segment`. Raises InputError for a segment that is not above
-    zero.
+    The figures are those of `floatref iri --segment`. Raises InputError for a segment that is not
+    above zero.
     """
     settings = IriSettings(segment_m=segment_m)
     edges, remarks = _edges(profile, segment_m)
-    indices = []
+    measured = []
     for track in profile.tracks:
         try:
-            indices.append(_indices(track, profile, settings))
+            measured.append(
+                segment_iris(track, profile.interval_m, settings, start_m=profile.start_m)
+            )
         except InputError as error:
             # A profile too short or too coarse for the car is a profile all the same.
             remarks.append(f"track {track.name}: no IRI: {error}")
-            indices.append([nan] * (edges.size - 1))
-    means = [_mean(pair) for pair in zip(*indices, strict=True)]
+            measured.append(_without_iri(track, profile, edges))
     rows = [
         row
-        for track, values in zip(profile.tracks, indices, strict=True)
-        for row in _rows(track, profile, edges, values, means, recording)
+        for track, segments in zip(profile.tracks, measured, strict=True)
+        for row in _rows(track.name, segments, measured, recording)
     ]
     return tuple(rows), tuple(remarks)
 
@@ -55,36 +57,69 @@ def _edges(profile: Profile, segment_m: float | None) -> tuple[IndexArray, list[
         return whole, [f"not cut into segments: {error}"]
 
 
-def _indices(track: ProfileTrack, profile: Profile, settings: IriSettings) -> list[float]:
-    found = iri_segments(track.elevation, profile.interval_m, settings, profile.start_m)
-    return [segment.iri_m_per_km for segment in found]
+def _without_iri(
+    track: ProfileTrack, profile: Profile, edges: IndexArray
+) -> tuple[SegmentIri, ...]:
+    starts = profile.start_m + edges[:-1] * profile.interval_m
+    lengths = np.diff(edges) * profile.interval_m
+    invalid = invalid_lengths(track, edges, profile.interval_m)
+    columns = zip(starts.tolist(), lengths.tolist(), invalid.tolist(), strict=True)
+    return tuple(SegmentIri(start, length, nan, 0.0, nan, lost) for start, length, lost in columns)
+
+
+def _rows(
+    track: str,
+    segments: Sequence[SegmentIri],
+    measured: Sequence[Sequence[SegmentIri]],
+    recording: Recording | None,
+) -> list[Row]:
+    """Return the rows of ``track``; ``measured`` has the segments of every wheel path."""
+    starts = np.array([segment.start_m for segment in segments], dtype=np.float64)
+    places_of = zip(*(found.tolist() for found in _places(recording, track, starts)), strict=True)
+    together = zip(*measured, strict=True)
+    return [
+        _row(track, number, segment, place, same)
+        for number, (segment, place, same) in enumerate(
+            zip(segments, places_of, together, strict=True)
+        )
+    ]
+
+
+def _row(
+    track: str,
+    number: int,
+    segment: SegmentIri,
+    place: tuple[float, float],
+    same: Sequence[SegmentIri],
+) -> Row:
+    """Return one row; ``same`` is this segment in every wheel path."""
+    latitude, longitude = place
+    figures = {
+        "start_m": segment.start_m,
+        "length_m": segment.length_m,
+        "latitude_deg": latitude,
+        "longitude_deg": longitude,
+        "iri_m_per_km": segment.all_m_per_km,
+        "mean_roughness_index_m_per_km": _mean([each.all_m_per_km for each in same]),
+        "flagged_m": segment.invalid_m,
+        "iri_of_valid_m_per_km": segment.valid_m_per_km,
+        "counted_share": segment.counted_share,
+        "iri_of_valid_low_m_per_km": segment.interval.low_m_per_km,
+        "iri_of_valid_high_m_per_km": segment.interval.high_m_per_km,
+        "mean_roughness_index_of_valid_m_per_km": _mean([each.valid_m_per_km for each in same]),
+        "mean_roughness_index_counted_share": _smaller([each.counted_share for each in same]),
+    }
+    # One NaN for all: equal rows compare equal.
+    known = {name: nan if value != value else value for name, value in figures.items()}
+    return Row(track, number, **known)
 
 
 def _mean(values: Sequence[float]) -> float:
     return mean_roughness_index(*values) if len(values) == 2 else nan
 
 
-def _rows(
-    track: ProfileTrack,
-    profile: Profile,
-    edges: IndexArray,
-    indices: Sequence[float],
-    means: Sequence[float],
-    recording: Recording | None,
-) -> list[Row]:
-    starts = np.asarray(profile.start_m + edges[:-1] * profile.interval_m, np.float64)
-    latitude, longitude = _places(recording, track.name, starts)
-    columns = (
-        starts,
-        np.diff(edges) * profile.interval_m,
-        latitude,
-        longitude,
-        np.asarray(indices),
-        np.asarray(means),
-        _find_flagged(track, edges) * profile.interval_m,
-    )
-    values = zip(*(column.tolist() for column in columns), strict=True)
-    return [Row(track.name, segment, *row) for segment, row in enumerate(values)]
+def _smaller(shares: Sequence[float]) -> float:
+    return min(shares) if len(shares) == 2 else nan
 
 
 def _places(
@@ -93,11 +128,3 @@ def _places(
     if recording is None:
         return np.full(starts.size, nan), np.full(starts.size, nan)
     return places(recording, track, starts)
-
-
-def _find_flagged(track: ProfileTrack, edges: IndexArray) -> IndexArray:
-    """Return the points of every segment that are not valid; the end belongs to the last one."""
-    before = np.concatenate(([0], np.cumsum(~track.valid)))
-    ends = edges.copy()
-    ends[-1] += 1
-    return np.asarray(np.diff(before[ends]), dtype=np.int64)

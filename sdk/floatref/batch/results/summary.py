@@ -39,6 +39,12 @@ COLUMNS: Mapping[str, type] = {
     "inputs": str,
     "outputs": str,
     "profile": str,
+    "iri_of_valid_m_per_km": float,
+    "counted_share": float,
+    "iri_of_valid_low_m_per_km": float,
+    "iri_of_valid_high_m_per_km": float,
+    "mean_roughness_index_of_valid_m_per_km": float,
+    "mean_roughness_index_counted_share": float,
 }
 """Columns and their types; an unknown value is null, and empty in CSV."""
 TOGETHER = 4096

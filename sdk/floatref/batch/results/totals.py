@@ -10,6 +10,8 @@ from floatref.batch.results.record import Effort, Record, Row
 
 ROUGHEST = 5
 """Number of rows with the largest IRI that are stored."""
+RANKED_SHARE = 0.5
+"""Share of the file's longest segment that a row must count over to be among the roughest."""
 OPENING = 16 << 20
 """Bytes of a recording that take about as long to read as opening a file takes."""
 
@@ -27,7 +29,8 @@ class Tally:
         warnings: lines of warnings of all files.
         length_m: of all profiles; ``new_m`` of those that this command has made.
         effort: of all profiles, whenever they were made: sums, and the largest peak of memory.
-        roughest: IRI in m/km, name and row, the largest first.
+        roughest: IRI of valid points in m/km, name and row, the largest first.
+        not_ranked: rows whose valid points are too few to be among the roughest.
     """
 
     files: int = 0
@@ -41,6 +44,7 @@ class Tally:
     new_m: float = 0.0
     effort: Effort = field(default_factory=Effort)
     roughest: list[tuple[float, str, Row]] = field(default_factory=list)
+    not_ranked: int = 0
     _weight_done: int = 0
     _weight_skipped: int = 0
 
@@ -99,10 +103,14 @@ class Tally:
         return self.size_bytes + OPENING * self.files
 
     def _keep_roughest(self, record: Record) -> None:
-        """Keep the rows of largest IRI; the rest behind the last whole segment does not count."""
-        half_m = max((row.length_m for row in record.rows), default=0.0) / 2
-        whole = [row for row in record.rows if row.length_m >= half_m]
-        rows = [(r.iri_m_per_km, record.name, r) for r in whole if not isnan(r.iri_m_per_km)]
+        """Keep the rows of largest IRI of valid points; a rest and an invalid row do not count."""
+        needed_m = RANKED_SHARE * max((row.length_m for row in record.rows), default=0.0)
+        rows = [
+            (row.iri_of_valid_m_per_km, record.name, row)
+            for row in record.rows
+            if not isnan(row.iri_of_valid_m_per_km) and row.counted_share * row.length_m >= needed_m
+        ]
+        self.not_ranked += len(record.rows) - len(rows)
         self.roughest = heapq.nlargest(ROUGHEST, self.roughest + rows, key=lambda item: item[0])
 
 

@@ -13,7 +13,14 @@ import click
 
 from floatref.batch.results.summary import CSV, PARQUET
 from floatref.batch.results.totals import Tally
-from floatref.cli.printing import number, print_table
+from floatref.cli.printing import (
+    PERCENT_OF_VALID,
+    explain_mark,
+    marked,
+    number,
+    percent,
+    print_table,
+)
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -110,7 +117,7 @@ NAMES = 3
 def print_report(document: Mapping[str, Any], tally: Tally, out: Path) -> None:
     """Print counts, the roughest segments, failures with their reasons, and the written files."""
     _print_counts(document)
-    if tally.roughest:
+    if tally.roughest or tally.not_ranked:
         _print_roughest(tally)
     if tally.failed:
         _print_failures(document["failures"])
@@ -160,11 +167,24 @@ def _print_counts(document: Mapping[str, Any]) -> None:
 
 def _print_roughest(tally: Tally) -> None:
     rows = [
-        [name, row.track, number(row.start_m, 1), number(row.length_m, 1), number(iri)]
+        [
+            name,
+            marked(row.track, row.counted_share < 1.0),
+            number(row.start_m, 1),
+            number(row.length_m, 1),
+            number(iri),
+            percent(row.counted_share),
+            number(row.iri_m_per_km),
+        ]
         for iri, name, row in tally.roughest
     ]
-    columns = ("file", "track", "start m", "length m", "IRI m/km")
-    print_table("Roughest", columns, rows)
+    columns = ("file", "track", "start m", "length m", "IRI m/km", PERCENT_OF_VALID, "all points")
+    if rows:
+        print_table("Roughest, by the IRI of valid points", columns, rows)
+    some = any(row.counted_share < 1.0 for _, _, row in tally.roughest)
+    explain_mark(some, "the IRI of all points has the others too")
+    if tally.not_ranked:
+        click.echo(f"Not ranked, less than half of a segment is valid: {tally.not_ranked} rows\n")
 
 
 def _print_failures(failures: Sequence[Mapping[str, str]]) -> None:

@@ -73,6 +73,6 @@ class IriSettings:
             "start_length_m": self.start_length_m,
             "speed_kmh": self.speed_kmh,
             "segment_m": self.segment_m,
-            "segments": "one pass of the car, cut afterwards, last partial one kept",
+            "segments": "one pass of the car, cut afterwards; a rest below a tenth joins the last",
             "missing_elevation": "bridged by a straight line, left out at the ends",
         }

@@ -20,6 +20,9 @@ from floatref.values.arrays import FloatArray
 M_PER_KM = 1000.0
 """Slopes of 1 m/m in m/km."""
 
+SHORTEST_PART = 0.1
+"""Part of a segment below which what remains at the end joins the segment before it."""
+
 STANDARD = IriSettings()
 """The settings of the IRI as it is defined."""
 
@@ -76,7 +79,8 @@ def iri_segments(
 
     The car is not started again between segments. Boundaries lie at the points next to whole
     multiples of the segment length, so they do not drift; the last, partial segment is kept
-    with its own length. A segment's IRI is the mean over its measured part, NaN without one.
+    with its own length, unless it joins the one before: `segment_edges`. A segment's IRI is the
+    mean over its measured part, NaN without one.
     Raises InputError for a segment shorter than the interval.
     """
     run = _Run.of(elevation, interval_m, settings)
@@ -92,7 +96,9 @@ def iri_segments(
 def segment_edges(count: int, interval_m: float, segment_m: float | None) -> NDArray[np.int64]:
     """Return the first interval of every segment of ``count`` intervals, and ``count``.
 
-    A segment of the profile's length or longer is the whole profile.
+    A segment of the profile's length or longer is the whole profile. A remainder shorter than a
+    tenth of a segment joins the segment before it: sections of 0.1 mile are then at most 0.11 mile
+    long, as 23 CFR 490.309 has them. Raises InputError for a segment shorter than the interval.
     """
     if segment_m is None or segment_m >= count * interval_m > 0:
         return np.array([0, count], dtype=np.int64)
@@ -100,7 +106,26 @@ def segment_edges(count: int, interval_m: float, segment_m: float | None) -> NDA
         raise InputError(f"segment is {segment_m:g} m, less than the interval {interval_m:g} m")
     whole = np.arange(int(count * interval_m / segment_m) + 2)
     edges = np.rint(whole * segment_m / interval_m).astype(np.int64)
-    return np.append(edges[edges < count], count)
+    inside = edges[edges < count]
+    shortest = SHORTEST_PART * segment_m / interval_m
+    # A remainder of exactly a tenth is a segment, whatever the rounding.
+    if inside.size > 1 and count - inside[-1] < shortest * (1.0 - 1e-9):
+        inside = inside[:-1]
+    return np.append(inside, count)
+
+
+def rectified_sums(
+    elevation: FloatArray,
+    interval_m: float,
+    edges: NDArray[np.int64],
+    settings: IriSettings = STANDARD,
+) -> FloatArray:
+    """Return the sum of the rectified output in m/km between successive ``edges`` of intervals.
+
+    ``elevation`` is measured at both ends; the car runs from the first interval to the last edge.
+    Raises InputError as `iri`.
+    """
+    return _Run.of(elevation, interval_m, settings).rectified_sums(edges)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from floatref.batch.jobs.job import Job
 from floatref.batch.results.record import Effort, Record, Row
 from floatref.batch.results.totals import ROUGHEST, Tally
 
-ROW = Row("left", 0, 0.0, 100.0, nan, nan, 1.0, nan, 0.0)
+ROW = Row("left", 0, 0.0, 100.0, nan, nan, 1.0, nan, 0.0, 1.0, 1.0)
 
 patient = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 """How fast examples are made decides nothing."""
@@ -85,17 +85,32 @@ def test_effort_is_summed_and_the_peak_of_memory_is_the_largest() -> None:
 def test_the_roughest_rows_are_kept_in_order(values: list[float]) -> None:
     tally = Tally()
     for index, value in enumerate(values):
-        row = replace(ROW, iri_m_per_km=value)
+        row = replace(ROW, iri_m_per_km=1000.0 * index, iri_of_valid_m_per_km=value)
         tally.add(job(str(index)), record(str(index), rows=(row,)))
     known = sorted((value for value in values if not isnan(value)), reverse=True)
     assert [iri for iri, _, _ in tally.roughest] == known[:ROUGHEST]
     assert all(values[int(name)] == iri for iri, name, _ in tally.roughest)
 
 
+@patient
+@given(st.lists(st.tuples(st.floats(0.0, 20.0), st.floats(0.0, 1.0)), max_size=20))
+def test_a_row_of_which_half_is_invalid_is_counted_and_not_ranked(
+    rows: list[tuple[float, float]],
+) -> None:
+    tally = Tally()
+    for index, (value, share) in enumerate(rows):
+        row = replace(ROW, iri_of_valid_m_per_km=value, counted_share=share)
+        tally.add(job(str(index)), record(str(index), rows=(row,)))
+    assert tally.not_ranked == sum(share < 0.5 for _, share in rows)
+    ranked = sorted((value for value, share in rows if share >= 0.5), reverse=True)
+    assert [iri for iri, _, _ in tally.roughest] == ranked[:ROUGHEST]
+    assert all(row.counted_share >= 0.5 for _, _, row in tally.roughest)
+
+
 def test_what_is_left_behind_the_last_segment_is_not_among_the_roughest() -> None:
     tally = Tally()
-    rest = replace(ROW, segment=1, start_m=100.0, length_m=0.2, iri_m_per_km=99.0)
-    short = replace(ROW, length_m=0.2, iri_m_per_km=5.0)
+    rest = replace(ROW, segment=1, start_m=100.0, length_m=0.2, iri_of_valid_m_per_km=99.0)
+    short = replace(ROW, length_m=0.2, iri_of_valid_m_per_km=5.0)
     tally.add(job("a"), record("a", rows=(ROW, rest)))
     tally.add(job("b"), record("b", rows=(short,)))
     assert [iri for iri, _, _ in tally.roughest] == [5.0, 1.0]
