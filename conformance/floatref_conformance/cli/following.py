@@ -18,11 +18,14 @@ from floatref_conformance.cli.no_verdict import (
 )
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.events import Event, Renderer, RunFinished
-from floatref_conformance.judge.runner import Plan, run
+from floatref_conformance.judge.in_processes import run_in_processes
+from floatref_conformance.judge.runner import Plan
 from floatref_conformance.render.terminal import TerminalRenderer
 
 
-def follow(plan: Plan, terminal: TerminalRenderer, writers: Sequence[Renderer]) -> RunResult:
+def follow(
+    plan: Plan, terminal: TerminalRenderer, writers: Sequence[Renderer], processes: int = 1
+) -> RunResult:
     """Run ``plan``, show it on ``terminal``, have it written by ``writers``, return the result.
 
     Without a verdict, or without a report of it, the command ends here with its exit code. The
@@ -43,7 +46,7 @@ def follow(plan: Plan, terminal: TerminalRenderer, writers: Sequence[Renderer]) 
 
     try:
         with end_like_an_interrupt():
-            result = run(plan, emit)
+            result = run_in_processes(plan, emit, processes)
     except SuiteError as fault:
         terminal.close()
         _end_at_fault(fault)

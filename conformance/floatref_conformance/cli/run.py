@@ -11,6 +11,7 @@ from floatref_conformance.cli.following import follow
 from floatref_conformance.cli.options import class_of, limit_time, writers_into
 from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.exercise import close_on_error
+from floatref_conformance.judge.in_processes import refuse_processes
 from floatref_conformance.judge.runner import Plan
 from floatref_conformance.judge.waivers import check_used, read_waivers
 from floatref_conformance.plugins import load_registry
@@ -64,6 +65,13 @@ RECOMMENDED = "builtin:road-prior-smoother"
     help="Directory for report.json, report.html, junit.xml, and the cases that fail; those in "
     "it are run again.",
 )
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    help="Checks that run at a time, each in a process; for builtin: and files: only.",
+)
 @click.option("--verbose", is_flag=True, help="Show the details of every check below the table.")
 @click.option(
     "--json",
@@ -83,6 +91,7 @@ def run(
     waive: Path | None,
     device_timeout: float | None,
     report: Path | None,
+    jobs: int,
     verbose: bool,
     as_json: bool,
     edition: str,
@@ -119,10 +128,12 @@ def run(
             report=report,
             edition=find_edition(edition),
         )
+        refuse_processes(plan, jobs)
         writers = writers_into(report)
     if as_json:
         writers.append(JsonOutput(click.echo))
-    finished = follow(plan, TerminalRenderer(make_console(stderr=as_json), verbose), writers)
+    terminal = TerminalRenderer(make_console(stderr=as_json), verbose)
+    finished = follow(plan, terminal, writers, jobs)
     if waive is not None:
         check_used(waivers, finished, waive)
     context.exit(finished.verdict.exit_code)

@@ -27,9 +27,17 @@ CLAIMS: Mapping[str, DeviceClass] = {
 
 @dataclass(frozen=True)
 class BuiltinDevice:
-    """Pipeline ``pipeline`` of floatref with default settings and the channels that it needs."""
+    """Pipeline ``pipeline`` of floatref with default settings and the channels that it needs.
+
+    It has no memory of earlier recordings, so it is concurrent: copies may run at once.
+    """
 
     pipeline: str
+
+    @property
+    def concurrent(self) -> bool:
+        """True: copies in several processes make the same profiles."""
+        return True
 
     @property
     def claims(self) -> DeviceClass:

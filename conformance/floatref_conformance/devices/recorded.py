@@ -29,11 +29,13 @@ class RecordedDevice:
         folder: contains `<case>/recording.json`, `<case>/profile.json` and their files.
         description: the device's description of itself.
         searchable: False; a search needs recordings that depend on the answers.
+        concurrent: True; copies in several processes read the same files.
     """
 
     folder: Path
     description: Mapping[str, Any]
     searchable: bool = field(default=False, init=False)
+    concurrent: bool = field(default=True, init=False)
     _digests: dict[Path, Digests] = field(default_factory=dict, init=False, repr=False)
 
     def describe(self) -> Mapping[str, Any]:

@@ -73,15 +73,22 @@ class Plan:
     edition: Edition = field(default_factory=find_edition)
 
 
-def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
+Emit = Callable[[Event], None]
+Judged = tuple[list[CheckResult], list[Mapping[str, Any]]]
+"""The results of checks, and of stored cases."""
+JudgeAll = Callable[[Plan, Description, Emit], Judged]
+
+
+def run(plan: Plan, emit: Emit, judge_all: JudgeAll | None = None) -> RunResult:
     """Return the result of ``plan``; ``emit`` is called with every event.
 
+    ``judge_all``, if given, judges the checks of the plan in another way.
     Raises SuiteError, also for sys.exit in a check; there is then no verdict. The device is
     closed once in every case.
     """
     closing = Closing(plan.device)
     try:
-        return _run(plan, emit, closing)
+        return _run(plan, emit, closing, judge_all)
     except (SuiteError, BrokenPipeError, KeyboardInterrupt):
         raise
     except (Exception, SystemExit) as error:
@@ -91,12 +98,15 @@ def run(plan: Plan, emit: Callable[[Event], None]) -> RunResult:
         closing.close()
 
 
-def _run(plan: Plan, emit: Callable[[Event], None], closing: Closing) -> RunResult:
+def _run(plan: Plan, emit: Emit, closing: Closing, judge_all: JudgeAll | None) -> RunResult:
     description, fault = _describe(plan.device)
     emit(RunStarted(plan.spec, description, plan.checks, plan.left_out))
     trial = Trial(plan.device, description, plan.device_class, emit, fault, edition=plan.edition)
-    with _simulate_ahead(plan, trial) as announce:
-        results, replayed = _judge_all(plan, trial, announce, closing)
+    if judge_all is None:
+        with _simulate_ahead(plan, trial) as announce:
+            results, replayed = _judge_all(plan, trial, announce, closing)
+    else:
+        results, replayed = judge_all(plan, description, emit)
     results += [left_out_result(left_out) for left_out in plan.left_out]
     replayed += _skip_left_out(plan)
     finished = _result(plan, description, results, replayed)
@@ -106,7 +116,7 @@ def _run(plan: Plan, emit: Callable[[Event], None], closing: Closing) -> RunResu
 
 def _judge_all(
     plan: Plan, trial: Trial, announce: Callable[[Check], None], closing: Closing
-) -> tuple[list[CheckResult], list[Mapping[str, Any]]]:
+) -> Judged:
     """Return the results of all checks, and of all stored cases."""
     results: list[CheckResult] = []
     replayed: list[Mapping[str, Any]] = []

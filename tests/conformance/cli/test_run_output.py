@@ -74,3 +74,16 @@ def test_the_object_is_all_that_a_process_writes_to_its_standard_output():
     checks = {check["id"]: check for check in json.loads(done.stdout)["checks"]}
     assert checks["bounce"]["shown"]["quantity"] == "IRI"
     assert "INCOMPLETE" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("jobs", "words"), [(2, "may not run several times at once"), (0, "0 is not in the range")]
+)
+def test_jobs_that_cannot_be_are_exit_2_before_anything_runs(run_toy, devices, jobs, words):
+    answer = run_toy("good", "--jobs", jobs)
+    assert (answer.exit_code, answer.stdout, devices["good"].seen) == (2, "", [])
+    assert words in answer.stderr.splitlines()[-1]
+
+
+def test_one_job_is_the_default(run_toy):
+    assert run_toy("good", "--jobs", 1).stdout == run_toy("good").stdout
