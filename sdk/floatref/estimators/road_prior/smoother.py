@@ -202,7 +202,7 @@ class RoadPriorSmoother(Stage):
             flags = flags_of(block, vertical, range_)
             flags = mark_leaps(flags, own.leaps, block.first, len(block))
             found[track] = Filtered(*passed, flags)
-        self.memory["backlog"].add(block.without(ACCELERATION), found)
+        self.memory["backlog"].add(block.without(ACCELERATION, LEVELLED), found)
 
     def _track(self, track: str, height: FloatArray) -> RoadTrack:
         """Return the filter of ``track``, which begins at the first of ``height``."""

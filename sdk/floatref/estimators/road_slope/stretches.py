@@ -50,13 +50,16 @@ def _active(drive: Drive) -> BoolArray:
 
 
 def _known_speed(drive: Drive) -> FloatArray:
-    """Return the speed, linear where the encoder is lost: a bridge over lost counts is no brake."""
+    """Return the speed, linear where counts are lost: a bridge over them is no brake.
+
+    Where the encoder leaps it is faster than that, and stays so: nothing is known about it.
+    """
     # A speed is the difference of the places beside it.
     known = ~np.convolve(drive.lost, np.ones(5, np.bool_), "same")
     if known.all() or not known.any():
         return drive.speed
     bins = np.arange(known.size)
-    return np.interp(bins, bins[known], drive.speed[known])
+    return np.maximum(np.interp(bins, bins[known], drive.speed[known]), drive.speed)
 
 
 def rolled_back(lost: BoolArray, distance: FloatArray, step: float) -> BoolArray:

@@ -6,6 +6,7 @@ import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
+from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
 from floatref.values.scanning import every
 
@@ -37,7 +38,7 @@ class Motion(NamedTuple):
         """Return the motion by a channel of distance; missing samples are bridged."""
         stride = max(1, int(STEP_S * distance.mean_rate_hz / 4))
         values = np.asarray(every(stride, distance.values))
-        times = np.asarray(every(stride, distance.times_s))
+        times = _times(distance, stride, values.size)
         known = ~np.isnan(values)
         if known.sum() < 2 or np.ptp(times[known]) > MOST_SAMPLES * STEP_S:
             return cls(*np.empty((4, 0)))
@@ -61,6 +62,13 @@ class Motion(NamedTuple):
             return self.speed
         gained = self.speed**2 - self.speed[0] ** 2
         return np.asarray(gained / (2.0 * STANDARD_GRAVITY))
+
+
+def _times(channel: Channel, stride: int, count: int) -> FloatArray:
+    """Return the times of every ``stride``-th sample: those of an hour would be half a GB."""
+    if isinstance(channel.clock, UniformClock):
+        return channel.clock.times(count, step=stride)
+    return np.asarray(every(stride, channel.times_s))
 
 
 def derivatives(values: FloatArray) -> tuple[FloatArray, FloatArray]:
