@@ -9,6 +9,7 @@ from floatref.values.recording import Channel
 
 pytestmark = pytest.mark.slow
 
+BASIC = "temporal-basic"
 NOMINAL = [name for name in floatref.pipelines() if not floatref.pipeline_capabilities(name)]
 SUPPRESSING = [name for name in NOMINAL if not name.startswith("road-prior-")]
 """Pipelines that do not measure in hard brakes and at stops."""
@@ -35,7 +36,7 @@ def with_gap(steady, name, begin, end):
 def test_a_huge_cut_off_is_no_more_than_the_whole_run(steady):
     recording = with_gap(steady, "vertical_specific_force", 15_000, 15_050)
     with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
-        profile = floatref.process(recording, settings={"cutoff_wavelength_m": 1e308})
+        profile = floatref.process(recording, BASIC, {"cutoff_wavelength_m": 1e308})
     assert not profile.tracks[0].valid.any()
 
 
@@ -52,7 +53,9 @@ def test_a_laser_drop_out_is_flagged_where_it_is(steady, pipeline):
 
 def test_an_accelerometer_drop_out_is_flagged_a_cut_off_wavelength_to_either_side(steady):
     with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
-        profile = floatref.process(with_gap(steady, "vertical_specific_force", 15_000, 15_011))
+        profile = floatref.process(
+            with_gap(steady, "vertical_specific_force", 15_000, 15_011), BASIC
+        )
     lost = invalid_within(profile)
     assert lost.min() == pytest.approx(300.0 - 105.91, abs=0.2)
     assert lost.max() == pytest.approx(300.2 + 105.91, abs=0.2)
@@ -60,7 +63,9 @@ def test_an_accelerometer_drop_out_is_flagged_a_cut_off_wavelength_to_either_sid
 
 def test_a_drop_out_too_short_to_drift_is_flagged_where_it_is(steady):
     with pytest.warns(floatref.FloatrefWarning, match="vertical_specific_force"):
-        profile = floatref.process(with_gap(steady, "vertical_specific_force", 15_000, 15_010))
+        profile = floatref.process(
+            with_gap(steady, "vertical_specific_force", 15_000, 15_010), BASIC
+        )
     lost = invalid_within(profile)
     assert 299.9 <= lost.min() <= lost.max() <= 300.3
 
@@ -112,7 +117,7 @@ def test_how_near_to_a_standstill_a_brake_is_flagged_is_a_setting(steady, stoppi
     speed = np.clip(30.0 - 3.0 * np.clip(times - 10.0, 0.0, None), 6.0, None)
     distance = np.cumsum(speed) / 1000.0
     recording = steady(seconds=40.0, distance=distance)
-    profile = floatref.process(recording, settings={"stopping_time_s": stopping_time_s})
+    profile = floatref.process(recording, BASIC, {"stopping_time_s": stopping_time_s})
     begins = distance[speed < stopping_time_s * 3.0][0]
     first = invalid_within(profile).min()
     assert first == pytest.approx(begins, abs=0.3 * stopping_time_s * 3.0)

@@ -48,7 +48,10 @@ def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
             ["runs", "--out", "out", "--jobs", "2", "--cluster", "tcp://a:1"],
             "omit it or --cluster",
         ),
-        (["runs", "--out", "out", "--settings", "given.json"], "settings cutoff: no pipeline of `auto`"),
+        (
+            ["runs", "--out", "out", "--settings", "given.json"],
+            "settings cutoff: no pipeline of `auto`",
+        ),
         (["runs", "--out", "out", "--segment", "-5"], "segment -5.0 m"),
         (["runs", "--out", "out", "--plot", "a.txt"], "a.txt: not the name of a drawing"),
         (["runs", "--out", "none/out"], "its folder does not exist"),
