@@ -28,9 +28,12 @@ def run_named_or_best(
     if pipeline != AUTO:
         return run_one(pipeline)
     known, lines = plugins().pipelines(), list[str]()
-    *better, last = choices_for(recording, known)
+    able = choices_for(recording, known)
+    given = settings or {}
+    # One that lacks a setting that is given is passed over; if all do, the best one says so.
+    *better, last = [c for c in able if _has(known[c.pipeline], given)] or able
     for choice in better:
-        known[choice.pipeline].resolve(settings or {})  # A setting is no fault of the recording.
+        known[choice.pipeline].resolve(given)  # A setting is no fault of the recording.
         try:
             return _with_choice(run_one(choice.pipeline), choice, lines)
         except InputError as error:

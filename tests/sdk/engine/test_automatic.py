@@ -61,6 +61,14 @@ def test_settings_are_those_of_every_pipeline_that_has_them():
     assert named == plugins().pipeline("temporal-basic").resolve({})
 
 
+def test_a_pipeline_that_lacks_a_setting_is_passed_over(steady, monkeypatch):
+    choices = Choice("kalman-smoother-reflection", "all"), Choice("temporal-basic", "some")
+    monkeypatch.setattr(automatic, "choices_for", lambda recording, known: choices)
+    result = run_named_or_best(steady(), settings={"slow_mps": 4.0})
+    assert result.profile.pipeline == "temporal-basic"
+    assert not any("not taken" in line for line in result.warnings)
+
+
 def test_a_setting_is_no_fault_of_the_recording(steady, monkeypatch):
     choices = Choice("kalman-smoother-reflection", "all"), Choice("temporal-basic", "some")
     monkeypatch.setattr(automatic, "choices_for", lambda recording, known: choices)

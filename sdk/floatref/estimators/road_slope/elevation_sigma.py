@@ -17,9 +17,9 @@ GAIN_DOUBT, TURN_DOUBT = 0.045, 1.0
 """A body is no half car: its gain is sure within this part, and for each rad by which the road
 turns under a wheelbase within so much more."""
 TOGETHER, GRADE_DOUBT = 8.0, 0.016
-"""The grade of the whole stretch, which ½gP² shows, is off by this number of times what the rows
-make of it, and by the second at most: rows that count as drawn one by one err together where a
-brake ends."""
+"""The 1-σ of the grade of the whole stretch, which ½gP² shows, is this number of times that of the
+rows, and the second at most: rows that count as drawn one by one err together where a brake
+ends."""
 
 
 def elevation_sigma(fit: Fit, marks_m: FloatArray, wavelength_m: float) -> FloatArray:

@@ -11,7 +11,7 @@ from floatref.values.arrays import FloatArray
 
 PASSES, FEWEST, HALVINGS = 40, 7, 5
 SETTLED_RAD = 3e-4
-"""Change of all pitches by a pass below which it was the last."""
+"""Change of all pitches by a whole step below which it was the last."""
 LOOSEST, TIGHTER = 30.0, 0.5
 """The first passes take the springs for less sure than they are, each half as much as the one
 before: from a start without a road the sum of squares has other minima."""
@@ -40,7 +40,7 @@ class Fit(NamedTuple):
         unknowns: in the order of its layout.
         bends: intensity of the slope's steps in 1/m.
         passes: that it took.
-        changed_rad: largest change of a pitch by the last of them.
+        changed_rad: largest change of a pitch by the whole step of the last of them.
     """
 
     stretch: Stretch

@@ -18,6 +18,8 @@ LONGEST_SIDE_S = 30.0
 """No longer in motion, for a vehicle that creeps."""
 AFTER_STOP_S, BEFORE_START_S = 5.0, 3.0
 """Of a standstill, until the body has swung out, and from before it moves again."""
+SHORT_LOSS_S = 1.0
+"""Longest loss of counts that can hide no brake worth a tilt: the speed beside it is as before."""
 ROLLED_S, ROLLED_M = 0.1, 0.03
 """A vehicle is at a standstill that goes no farther by its encoder in the first than the second: at
 0.3 m/s, a brake of 1.5 m/s² ends within 0.03 m."""
@@ -50,16 +52,20 @@ def _active(drive: Drive) -> BoolArray:
 
 
 def _known_speed(drive: Drive) -> FloatArray:
-    """Return the speed, linear where counts are lost: a bridge over them is no brake.
+    """Return the speed, linear where counts are lost for a moment: a bridge over them is no brake.
 
-    Where the encoder leaps it is faster than that, and stays so: nothing is known about it.
+    A longer loss, and one at an end of the run, may hide a stop. Where the encoder leaps it is
+    faster than a line, and stays so: nothing is known about it.
     """
     # A speed is the difference of the places beside it.
-    known = ~np.convolve(drive.lost, np.ones(5, np.bool_), "same")
-    if known.all() or not known.any():
-        return drive.speed
-    bins = np.arange(known.size)
-    return np.maximum(np.interp(bins, bins[known], drive.speed[known]), drive.speed)
+    near = np.convolve(np.pad(drive.lost, 2), np.ones(5, np.bool_), "valid")
+    bins, speed = np.arange(near.size), drive.speed.copy()
+    edges = np.flatnonzero(np.diff(near, prepend=False, append=False)).reshape(-1, 2)
+    for low, high in edges.tolist():
+        if low > 0 and high < near.size and (high - low) * drive.step <= SHORT_LOSS_S:
+            line = np.interp(bins[low:high], [low - 1, high], speed[[low - 1, high]])
+            speed[low:high] = np.maximum(line, speed[low:high])
+    return speed
 
 
 def rolled_back(lost: BoolArray, distance: FloatArray, step: float) -> BoolArray:

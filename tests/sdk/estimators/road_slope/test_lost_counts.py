@@ -19,10 +19,29 @@ def without_counts(drive: Drive, begin: int, end: int) -> Drive:
     return drive._replace(distance=distance, speed=np.gradient(distance, STEP), lost=lost)
 
 
-@given(speed=st.floats(2.0, 30.0), begin=st.integers(10, 2000), size=st.integers(1, 200))
+@given(speed=st.floats(2.0, 30.0), begin=st.integers(10, 2000), size=st.integers(1, 45))
 def test_lost_counts_at_one_speed_are_no_brake(speed: float, begin: int, size: int) -> None:
     drive = drive_at(speeds((60, speed), (1, speed)))
     assert find_stretches(without_counts(drive, begin, begin + size)) == []
+
+
+@given(count=st.integers(2, 9), lost=st.integers(0, 8))
+def test_the_shortest_runs_are_no_stretch(count: int, lost: int) -> None:
+    drive = drive_at(np.full(count, 10.0))
+    gone = np.zeros(count, np.bool_)
+    gone[: min(lost, count)] = True
+    assert find_stretches(drive._replace(lost=gone)) == []
+
+
+@given(braking=st.floats(2.0, 8.0), standing_s=st.floats(0.0, 5.0), ends=st.booleans())
+def test_a_stop_within_lost_counts_is_a_stretch(
+    braking: float, standing_s: float, ends: bool
+) -> None:
+    """The speed on both sides is one, or the run ends with the counts."""
+    drive = drive_at(stop(15.0, braking, standing_s))
+    slow = np.flatnonzero(drive.speed < 14.9)
+    begin, end = int(slow[0]) - 5, drive.speed.size - 1 if ends else int(slow[-1]) + 5
+    assert find_stretches(without_counts(drive, begin, end)) != []
 
 
 @given(size=st.integers(5, 150))
