@@ -34,11 +34,6 @@ class Choice:
     pipeline: str
     reason: str
 
-    @property
-    def line(self) -> str:
-        """The choice in one line."""
-        return f"pipeline {self.pipeline}: {self.reason}"
-
 
 def choices_for(recording: Recording, known: Mapping[str, Pipeline]) -> tuple[Choice, ...]:
     """Return the pipelines that ``recording`` has the channels for, the best first.

@@ -66,14 +66,6 @@ def pipeline_capabilities(name: str) -> tuple[str, ...]:
     return plugins().pipeline(name).capabilities
 
 
-def resolve_settings(name: str, given: Mapping[str, Any]) -> dict[str, float | None]:
-    """Return the settings of pipeline ``name``, with the ``given`` ones replaced.
-
-    Raises InputError for a pipeline or a setting that `process` does not know.
-    """
-    return plugins().pipeline(name).resolve(given)
-
-
 @dataclass(frozen=True)
 class _Order:
     """An order: a recording, the interval of its profile, how to process it, what to keep."""

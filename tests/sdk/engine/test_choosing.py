@@ -66,7 +66,7 @@ def test_the_sensors_decide(absent, best):
     found = choices_for(recorded(ALL - set(absent)), plugins().pipelines())
     assert found[0].pipeline == best
     assert found[-1].pipeline == "road-prior-smoother"
-    assert found[0].line == f"pipeline {best}: {dict(BEST)[best]}"
+    assert found[0].reason == dict(BEST)[best]
 
 
 @pytest.mark.parametrize(
