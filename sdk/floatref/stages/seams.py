@@ -1,5 +1,7 @@
-"""The elevation continues without a step where the encoder lost travel."""
+"""The elevation continues at its grade where the encoder lost travel, or made it up."""
 
+from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
@@ -14,15 +16,68 @@ PACE_S = 0.1
 """Time in s over which the pace before a seam is measured."""
 LOST = 0.5
 """Share of the travel expected from the pace below which counts were lost."""
+LEAPT = 3.0
+"""Number of times that travel, within `PACE_S`, above which the encoder leapt."""
+GRADE_M, POINT_M = 20.0, 0.25
+"""Travel over which the grade is measured, and the interval of its points. It is long for a bump,
+and short for the waves that a high-pass leaves."""
 EMPTY: IndexArray = np.empty(0, np.int64)
 
 
-class Seams(Stage):
-    """Shifts `floating_reference_height` behind travel that the encoder lost.
+@dataclass(eq=False)
+class Grade:
+    """The road before a sample: points of it, and the last that was known.
 
-    Both sides of such a stretch lie at one place, and the road in between would cause a step there.
-    Where the encoder was missing and its distance includes the travel afterwards, nothing is
-    shifted.
+    Attributes:
+        places, heights: of the points, in m; without what seams lost or made up.
+        place, height: of the last sample, in m.
+    """
+
+    places: FloatArray = field(default_factory=lambda: np.empty(0))
+    heights: FloatArray = field(default_factory=lambda: np.empty(0))
+    place: float = 0.0
+    height: float = 0.0
+
+    def add(self, place: FloatArray, height: FloatArray) -> None:
+        """Take the next samples, shape (n,), of which one in each `POINT_M` is a point."""
+        seen = np.flatnonzero(~np.isnan(height))
+        if not seen.size:
+            return
+        place, height = place[seen], height[seen]
+        latest = self.places[-1:] if self.places.size else place[:1] - POINT_M
+        cells = np.maximum.accumulate(np.floor(np.append(latest, place) / POINT_M))
+        new = np.flatnonzero(np.diff(cells) > 0)
+        self.places = np.append(self.places, place[new])
+        self.heights = np.append(self.heights, height[new])
+        self.place, self.height = float(place[-1]), float(height[-1])
+        self._keep_near()
+
+    def cross(self, place: float, height: float) -> float:
+        """Return by how much the sample behind a seam is below the road that goes on, in m.
+
+        What was before moves up to that sample.
+        """
+        if np.isnan(height) or not self.places.size:
+            return 0.0
+        self._keep_near()
+        travel, level = place - self.place, self.height
+        if self.places.size > 1:
+            level += travel * float(np.polyfit(self.places - self.place, self.heights, 1)[0])
+        self.places, self.heights = self.places + travel, self.heights + height - self.height
+        return level - height
+
+    def _keep_near(self) -> None:
+        near = self.places >= self.place - GRADE_M
+        self.places, self.heights = self.places[near], self.heights[near]
+
+
+class Seams(Stage):
+    """Shifts `floating_reference_height` behind travel that the encoder lost or made up.
+
+    Both sides of lost travel lie at one place, and the road in between would cause a step there. On
+    both sides of a leap is one place of the road, but a grade goes on for the travel that a
+    high-pass over distance sees. Where the encoder was missing and its distance includes the travel
+    afterwards, nothing is shifted.
     """
 
     declared: ClassVar[Declared] = Declared(
@@ -41,8 +96,8 @@ class Seams(Stage):
         header.require(self.name, ChannelId(DISTANCE), *own)
         self._tracks = header.tracks
         self._pace = max(1, round(PACE_S / header.step))
-        zeros = dict.fromkeys(header.tracks, 0.0)
-        self.memory = {"shift": zeros, "elevation": dict(zeros), "places": np.empty(0), "at": EMPTY}
+        shift, grade = dict.fromkeys(header.tracks, 0.0), {t: Grade() for t in header.tracks}
+        self.memory = {"shift": shift, "grade": grade, "places": np.empty(0), "at": EMPTY}
         return header
 
     def advance(self, block: Block) -> Block:
@@ -54,13 +109,14 @@ class Seams(Stage):
         seams = self._seams(distance[known], known + block.first)
         for track in self._tracks:
             name, range_ = ChannelId(REFERENCE_HEIGHT, track), ChannelId(HEIGHT, track)
-            shifts = self._shifts(track, block[name] - block[range_], known, seams)
+            road = distance, block[name] - block[range_]
+            shifts = self._shifts(track, *road, known, seams)
             if shifts is not None:
                 values[name] = block[name] + shifts
         return block.setting(values) if values else block
 
     def _seams(self, places: FloatArray, at: IndexArray) -> list[int]:
-        """Return which known samples, ``at`` these, are behind a stretch whose travel was lost."""
+        """Return which known samples, ``at`` these, are behind travel that was lost or made up."""
         count = self.memory["at"].size
         whole = np.concatenate((self.memory["places"], places))
         where = np.concatenate((self.memory["at"], at))
@@ -69,25 +125,37 @@ class Seams(Stage):
             back = min(int(np.searchsorted(where, where[k] - self._pace)), k - 1)
             if k + 1 >= count and back >= 0:
                 pace = (whole[k] - whole[back]) / (where[k] - where[back])
-                if whole[k + 1] - whole[k] < LOST * pace * (where[k + 1] - where[k]):
+                if self._is_seam(where[k + 1] - where[k], whole[k + 1] - whole[k], pace):
                     found.append(k + 1 - count)
         self.memory["places"] = whole[-self._pace - 1 :].copy()
         self.memory["at"] = where[-self._pace - 1 :].copy()
         return found
 
+    def _is_seam(self, samples: int, travel: float, pace: float) -> bool:
+        """Return whether ``travel`` in m is lost or made up, at a ``pace`` in m per sample."""
+        leapt = samples <= self._pace and travel > LEAPT * pace * samples
+        return bool(leapt or travel < LOST * pace * samples)
+
     def _shifts(
-        self, track: str, elevation: FloatArray, known: IndexArray, seams: list[int]
+        self,
+        track: str,
+        place: FloatArray,
+        height: FloatArray,
+        known: IndexArray,
+        seams: list[int],
     ) -> FloatArray | None:
         """Return by how much each sample is shifted, None if nothing is."""
         shift: float = self.memory["shift"][track]
-        shifts = np.full(elevation.size, shift) if shift or seams else None
-        for k in seams:
-            before = elevation[known[k - 1]] if k else self.memory["elevation"][track]
-            step = float(np.nan_to_num(before - elevation[known[k]]))
-            if shifts is not None:
-                shifts[known[k] :] += step
+        grade: Grade = self.memory["grade"][track]
+        shifts = np.full(height.size, shift) if shift or seams else None
+        first = known[: seams[0] if seams else known.size]
+        grade.add(place[first], height[first])
+        for begin, end in pairwise([*seams, known.size]):
+            part = known[begin:end]
+            step = grade.cross(float(place[part[0]]), float(height[part[0]]))
+            grade.add(place[part], height[part])
             shift += step
+            if shifts is not None:
+                shifts[part[0] :] += step
         self.memory["shift"][track] = shift
-        if known.size:
-            self.memory["elevation"][track] = float(elevation[known[-1]])
         return shifts

@@ -1,4 +1,4 @@
-"""Where the encoder lost travel the elevation goes on; where it fell silent it stays."""
+"""Where the encoder lost travel, or made it up, the road goes on at its grade."""
 
 from fractions import Fraction
 from itertools import pairwise
@@ -56,18 +56,59 @@ def test_behind_lost_travel_the_elevation_is_that_before_it(seed, begin, length,
     np.testing.assert_allclose(shift, shift[0], atol=1e-12)
 
 
+def on_a_line(slope, speed=12.0):
+    """Return samples on a road of one ``slope``."""
+    place = speed / RATE * np.arange(COUNT)
+    return {REFERENCE: slope * place, HEIGHT: np.zeros(COUNT), DISTANCE: place}
+
+
 @laws
-@given(seed=SEEDS, begin=BEGIN, length=LENGTH, cuts=CUTS, leap_m=st.floats(0.0, 5.0))
-def test_what_is_told_again_and_standstills_and_leaps_shift_nothing(
-    seed, begin, length, cuts, leap_m
-):
+@given(
+    slope=st.floats(-0.12, 0.12),
+    begin=BEGIN,
+    length=st.integers(1, 9),
+    leap_m=st.floats(2.5, 20.0),
+    cuts=CUTS,
+)
+def test_behind_a_leap_the_road_has_gone_on_at_its_grade(slope, begin, length, leap_m, cuts):
+    """What a high-pass over the encoder's distance takes away of a grade leaves no step."""
+    true_m = 12.0 / RATE * (length + 1)
+    values = lost(on_a_line(slope), begin, length, true_m + leap_m)
+    found, place = through(values, cuts), values[DISTANCE]
+    known = ~np.isnan(place)
+    np.testing.assert_allclose(found[known], slope * place[known], atol=1e-9)
+
+
+@laws
+@given(
+    slope=st.floats(-0.12, 0.12), begin=BEGIN, length=LENGTH, share=st.floats(0.0, 0.45), cuts=CUTS
+)
+def test_travel_that_is_counted_in_part_goes_on_at_the_grade(slope, begin, length, share, cuts):
+    values = lost(on_a_line(slope), begin, length, share * 12.0 / RATE * (length + 1))
+    found, place = through(values, cuts), values[DISTANCE]
+    known = ~np.isnan(place)
+    np.testing.assert_allclose(found[known], slope * place[known], atol=1e-9)
+
+
+@laws
+@given(seed=SEEDS, begin=BEGIN, length=LENGTH, cuts=CUTS, more=st.floats(0.6, 2.9))
+def test_travel_that_may_be_true_and_standstills_shift_nothing(seed, begin, length, cuts, more):
     moving = drawn(seed)
     true_m = 12.0 / RATE * (length + 1)
     for values in (
-        lost(moving, begin, length, true_m + leap_m),
+        lost(moving, begin, length, more * true_m),
         lost(drawn(seed, speed=0.0), begin, length, 0.0),
     ):
         np.testing.assert_array_equal(through(values, cuts), moving[REFERENCE])
+
+
+@laws
+@given(seed=SEEDS, begin=BEGIN, length=st.integers(11, 200), cuts=CUTS)
+def test_too_many_counts_for_long_are_no_leap(seed, begin, length, cuts):
+    """The vehicle has travelled meanwhile, by an unknown part of them."""
+    moving = drawn(seed)
+    values = lost(moving, begin, length, 5.0 * 12.0 / RATE * (length + 1))
+    np.testing.assert_array_equal(through(values, cuts), moving[REFERENCE])
 
 
 @laws
@@ -81,6 +122,6 @@ def test_where_most_samples_are_silent_the_pace_is_still_that_of_the_road(seed, 
 @laws
 @given(seed=SEEDS, begin=BEGIN, length=LENGTH, cuts=CUTS)
 def test_any_split_gives_the_same_bits(seed, begin, length, cuts):
-    values = lost(drawn(seed), begin, length, 0.0)
+    values = lost(drawn(seed), begin, length, seed % 3 * 5.0)
     values[HEIGHT][begin - 1] = np.nan if seed % 2 else 0.0
     np.testing.assert_array_equal(through(values, cuts), through(values))

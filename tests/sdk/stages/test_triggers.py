@@ -153,6 +153,25 @@ def test_every_trigger_is_reached_whatever_the_encoder_lost(intervals_s, where, 
 
 
 @laws
+@given(before=st.integers(2, 30), leapt=st.integers(1, 50), cut=st.integers(1, 80))
+def test_a_leap_is_marked_at_the_sample_that_it_reaches(before, leapt, cut):
+    """Many triggers lie between two samples: as many as the encoder has made up."""
+    times = [0.004] * before + [0.0] * leapt + [0.004] * before
+    whole = lost(triggers(times), np.arange(before + 1, before + leapt + 1))
+    stage = ToTime()
+    stage.start(header())
+    blocks = [
+        stage.push(whole.part(0, cut)),
+        stage.push(whole.part(min(cut, len(whole)), len(whole))),
+    ]
+    samples = join_blocks([b for b in [*blocks, *stage.finish()] if len(b)])
+    marked = np.flatnonzero(samples.flags[DISTANCE])
+    leap = np.flatnonzero(np.diff(samples[DISTANCE]) > INTERVAL) + 1
+    assert set(leap) <= set(marked)
+    assert marked.size <= 5
+
+
+@laws
 @given(intervals_s=INTERVALS_S, where=st.lists(st.integers(1, 12)), cut=st.integers(0, 12))
 def test_lost_travel_is_the_same_wherever_blocks_are_cut(intervals_s, where, cut):
     block, stage = lost(triggers(intervals_s), where), ToTime()

@@ -1,23 +1,47 @@
 """The height carried to the accelerometer by a pitch that the road under the axles explains."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
 
 from floatref.errors import InputError
 from floatref.estimators.laser_place.pitching import Places, model_pitch
+from floatref.estimators.laser_place.travelled import Travelled
 from floatref.estimators.levelling.lines import Means
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, HEIGHT
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import Flag, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 
 BINS_HZ = 100.0
 """Readings per second of the model, for pitch up to 20 Hz."""
+
+
+@dataclass(eq=False)
+class Bins:
+    """Rows of a whole run as ``means`` over bins; ``parts`` are those that are complete."""
+
+    means: Means
+    parts: list[FloatArray] = field(default_factory=list)
+
+    def add(self, *rows: FloatArray) -> None:
+        """Add the samples of ``rows``, each of shape (n,)."""
+        self.parts.append(self.means.take(np.stack(rows)))
+
+    def take(self) -> FloatArray:
+        """Return all bins, shape (rows, bins), without a last one that is cut short.
+
+        The mean of a few samples lies before the middle of their bin, which is a brake to whoever
+        differentiates the distance. A run shorter than a bin has that one.
+        """
+        bins = np.concatenate(self.parts, axis=1)
+        self.parts = []
+        return bins if bins.shape[1] else self.means.rest()
 
 
 class HeightByModel(Stage):
@@ -50,13 +74,16 @@ class HeightByModel(Stage):
         header.require(self.name, *own, ChannelId(DISTANCE))
         self._header = header
         self._every = max(1, round(1.0 / (BINS_HZ * header.step)))
-        means = Means(self._every, len(own) + 1)
-        self.memory = {"means": means, "bins": [], "begin": None, "raised": None}
+        bins, miscounted = (Bins(Means(self._every, rows)) for rows in (len(own) + 1, 1))
+        self.memory = {"bins": bins, "miscounted": miscounted, "begin": None, "raised": None}
         return header
 
     def survey(self, block: Block) -> None:
         """Add the block to the means of the bins."""
-        self.memory["bins"].append(self.memory["means"].take(np.stack(self.rows(block))))
+        self.memory["bins"].add(*self.rows(block))
+        flags = block.flags.get(ChannelId(DISTANCE), np.zeros(len(block), np.uint8))
+        # A leap is two samples, which the mean over a bin would hide.
+        self.memory["miscounted"].add(((flags & np.uint8(Flag.SLOW)) != 0).astype(np.float64))
         if self.memory["begin"] is None and len(block):
             self.memory["begin"] = block.first
 
@@ -83,14 +110,9 @@ class HeightByModel(Stage):
         return block.setting(values, flags)
 
     def whole_bins(self) -> FloatArray:
-        """Return all bins, rows as in `rows`, without a last one that is cut short.
-
-        The mean of a few samples lies before the middle of their bin, which is a brake to whoever
-        differentiates the distance.
-        """
-        bins = np.concatenate(self.memory["bins"], axis=1)
-        self.memory["bins"] = []
-        return bins if bins.shape[1] else self.memory["means"].rest()
+        """Return all bins, rows as in `rows`."""
+        bins: Bins = self.memory["bins"]
+        return bins.take()
 
     def between_bins(self, block: Block, bins: FloatArray) -> FloatArray:
         """Return the lines through ``bins`` at the samples of ``block``, shape (n,)."""
@@ -103,7 +125,13 @@ class HeightByModel(Stage):
     def find_pitch(self, bins: FloatArray) -> FloatArray:
         """Return sin θ of every bin of all that was surveyed, rows as in `rows`."""
         force, height = middle(bins[:-1:2]) - STANDARD_GRAVITY, middle(bins[1:-1:2])
-        return np.sin(model_pitch(force, height, bins[-1], self.places()))
+        travelled = self.take_travelled(bins)
+        return np.sin(model_pitch(force, height, travelled.distance, self.places()))
+
+    def take_travelled(self, bins: FloatArray) -> Travelled:
+        """Return the travel in all ``bins``, rows as in `rows`."""
+        miscounted: Bins = self.memory["miscounted"]
+        return Travelled.of(bins[-1], miscounted.take()[0] > 0.0, self.places().step)
 
     def own(self, track: str) -> tuple[ChannelId, ChannelId]:
         """Return the channels of accelerometer and laser of the ``track``."""

@@ -15,6 +15,7 @@ from floatref.estimators.road_prior.learned import pool
 from floatref.estimators.road_prior.misfits import Misfits
 from floatref.estimators.road_prior.samples import missing_samples, trusted_samples
 from floatref.estimators.road_prior.track import RoadTrack, sub_block
+from floatref.estimators.road_prior.travel_to_nodes import Travel
 from floatref.estimators.road_prior.uncertain import flag_uncertain
 from floatref.estimators.smoothing.backlog import ALL, TOLERANCE_M, WAITING_S, Backlog
 from floatref.estimators.smoothing.line import Closing
@@ -43,6 +44,8 @@ from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 from floatref.values.innovations import Innovations
 
+Waiting = tuple[Block, FloatArray]
+"""A block whose accelerations along the road are not known yet, and the places of its nodes."""
 UNKNOWN = ChannelId(MISSING_SHARE)
 LEVEL = ChannelId(LEVELLED)
 LONGEST_S = 180.0
@@ -99,8 +102,7 @@ class RoadPriorSmoother(Stage):
             "waiting": [],
             "quiet": Quiet(sub_block(step) * round(1.0 / (step * sub_block(step)))),
             "filters": {},
-            "travelled": np.nan,
-            "pace": 0.0,
+            "travel": Travel(),
             "missing": dict.fromkeys(header.tracks, 0),
             "levelled": False,
         }
@@ -114,14 +116,15 @@ class RoadPriorSmoother(Stage):
         """Filter the blocks whose longitudinal acceleration is known; return one that is ready."""
         backlog: Backlog = self.memory["backlog"]
         if len(block):
-            self.memory["waiting"].append(block)
-            self.memory["excitation"].add(block[ChannelId(DISTANCE)][self._nodes(block)])
+            places = self.memory["travel"].find_places(block, self._nodes(block))
+            self.memory["waiting"].append((block, places))
+            self.memory["excitation"].add(places)
             self._filter_known()
             done = next(backlog.come_out(), None)
             if done is not None:
                 return self._flag_uncertain(done)
-        waiting: list[Block] = self.memory["waiting"]
-        first = backlog.blocks or waiting or [block]
+        waiting: list[Waiting] = self.memory["waiting"]
+        first = backlog.blocks or [each for each, _ in waiting] or [block]
         return Block(first[0].first, dict.fromkeys(self._made, frozen(())))
 
     def close(self) -> tuple[Block, ...]:
@@ -132,8 +135,8 @@ class RoadPriorSmoother(Stage):
         self.memory["excitation"].end()
         self._filter_known()
         last = backlog.blocks[-1]
-        at, distance = last.first + len(last) - 1, float(last[ChannelId(DISTANCE)][-1])
-        travel = max(0.0, np.nan_to_num(distance - self.memory["travelled"]))
+        at = last.first + len(last) - 1
+        travel = self.memory["travel"].since(float(last[ChannelId(DISTANCE)][-1]))
         filters: dict[str, RoadTrack] = self.memory["filters"]
         ending = {name: (each.end(at, travel), None) for name, each in filters.items()}
         for name, each in filters.items():
@@ -181,14 +184,15 @@ class RoadPriorSmoother(Stage):
     def _filter_known(self) -> None:
         more = np.stack(self.memory["excitation"].take())
         self.memory["known"] = known = np.concatenate((self.memory["known"], more), axis=1)
-        waiting: list[Block] = self.memory["waiting"]
-        while waiting and (nodes := self._nodes(waiting[0])).size <= known.shape[1]:
-            block = waiting.pop(0)
-            self._filter(block, nodes, known[:, : nodes.size])
-            self.memory["known"] = known = known[:, nodes.size :]
+        waiting: list[Waiting] = self.memory["waiting"]
+        while waiting and waiting[0][1].size <= known.shape[1]:
+            block, places = waiting.pop(0)
+            self._filter(block, places, known[:, : places.size])
+            self.memory["known"] = known = known[:, places.size :]
 
-    def _filter(self, block: Block, nodes: IndexArray, known: FloatArray) -> None:
-        shared, found = self._collect_shared(block, nodes, known), {}
+    def _filter(self, block: Block, places: FloatArray, known: FloatArray) -> None:
+        nodes, found = self._nodes(block), {}
+        shared = self._collect_shared(block, nodes, places, known)
         assert self._header is not None
         for track in self._header.tracks:
             vertical, range_ = ChannelId(ACCELERATION, track), ChannelId(HEIGHT, track)
@@ -215,7 +219,9 @@ class RoadPriorSmoother(Stage):
                 own.misfits = Misfits(self._header.origin, step, own.model.edge)
         return filters[track]
 
-    def _collect_shared(self, block: Block, nodes: IndexArray, known: FloatArray) -> Records:
+    def _collect_shared(
+        self, block: Block, nodes: IndexArray, places: FloatArray, known: FloatArray
+    ) -> Records:
         """Return what all wheel paths know at the nodes, see `road_prior_values`."""
         distance = block[ChannelId(DISTANCE)]
         quiet = self.memory["quiet"].take(block.first, distance) - block.first
@@ -228,20 +234,11 @@ class RoadPriorSmoother(Stage):
         ends["leaning"] = a * (1.0 - level * (1.0 - LEVELLED_LEAN))
         ends["tilting"] = a * response * (1.0 - level)
         ends["along"] = a * (1.0 - level)
-        ends["travel"] = self._travel(distance[nodes])
+        ends["travel"] = self.memory["travel"].take(places)
         if UNKNOWN in block.values:
             ends["missing"] = block[UNKNOWN][nodes]
         ends["anew"][np.searchsorted(nodes, quiet)] = 1.0
         return ends
-
-    def _travel(self, places: FloatArray) -> FloatArray:
-        """Return the travel to each node, at the last speed where the encoder gives no reading."""
-        travel = np.maximum(np.diff(places, prepend=self.memory["travelled"]), 0.0)
-        known = np.append(self.memory["pace"], travel)
-        latest = np.maximum.accumulate(np.where(np.isnan(known), 0, np.arange(known.size)))
-        known = known[latest]
-        self.memory["travelled"], self.memory["pace"] = float(places[-1]), float(known[-1])
-        return known[1:]
 
     def _missing(
         self, track: str, lost: BoolArray | None, size: int, nodes: IndexArray

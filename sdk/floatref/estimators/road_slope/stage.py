@@ -12,7 +12,6 @@ from floatref.estimators.road_prior.learned import Brake, pool
 from floatref.estimators.road_slope.constants import Places, SlopeModel
 from floatref.estimators.road_slope.levelled import Levelled
 from floatref.estimators.road_slope.readings import Drive
-from floatref.estimators.road_slope.stretches import rolled_back
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.marks import flags_of
 from floatref.stages.signals import HEIGHT, LEVELLED, LEVELLING_SIGMA
@@ -76,7 +75,7 @@ class LevelByRoad(HeightByModel):
         found = Levelled.of(drive, from_laser(places), self._model(), self.wavelength_m)
         pitch = np.zeros(drive.force.size)
         if any(self.levers_m.values()):
-            pitch = model_pitch(drive.force, drive.height, bins[-1], places)
+            pitch = model_pitch(drive.force, drive.height, drive.distance, places)
         pitch = found.hold(found.pitch, pitch)
         lean = found.hold(found.lean, np.zeros(pitch.size))
         # The smoother finds the rest of the lean of each wheel path about this mean.
@@ -90,15 +89,12 @@ class LevelByRoad(HeightByModel):
         """Return the mean of the wheel paths, without a value where one of them is unknown."""
         force, height = middle(bins[:-1:2]) - STANDARD_GRAVITY, middle(bins[1:-1:2])
         lost, unseen = (_any_unknown(rows) for rows in (bins[:-1:2], bins[1:-1:2]))
-        step = self.places().step
-        distance = np.maximum.accumulate(middle(bins[-1:]))
+        distance, unplaced, rolled = self.take_travelled(bins)
+        step, long = self.places().step, distance.size >= pitching.LEAST_SAMPLES
         speed = np.gradient(distance, step) if distance.size > 1 else np.zeros(distance.size)
-        long = distance.size >= pitching.LEAST_SAMPLES
         along = second_derivative(distance, step) if long else np.zeros(distance.size)
-        unplaced = np.isnan(bins[-1])
-        rolled = rolled_back(unplaced, distance, step)
         height = np.where(unseen | rolled, np.nan, height)
-        places = distance, speed, along, unplaced & ~rolled
+        places = distance, speed, along, unplaced
         return Drive(np.nan_to_num(force), lost, height, *places, step)
 
     def _model(self) -> SlopeModel:

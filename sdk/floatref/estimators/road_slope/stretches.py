@@ -18,11 +18,6 @@ LONGEST_SIDE_S = 30.0
 """No longer in motion, for a vehicle that creeps."""
 AFTER_STOP_S, BEFORE_START_S = 5.0, 3.0
 """Of a standstill, until the body has swung out, and from before it moves again."""
-SHORT_LOSS_S = 1.0
-"""Longest loss of counts that can hide no brake worth a tilt: the speed beside it is as before."""
-ROLLED_S, ROLLED_M = 0.1, 0.03
-"""A vehicle is at a standstill that goes no farther by its encoder in the first than the second: at
-0.3 m/s, a brake of 1.5 m/s² ends within 0.03 m."""
 SHORTEST_S = 2.0
 SHORTEST_PIECE_S = 0.5
 """A piece needs a node with a neighbour on both sides; a window may cut off less."""
@@ -42,45 +37,11 @@ def find_stretches(drive: Drive) -> list[list[slice]]:
 def _active(drive: Drive) -> BoolArray:
     """Return where the vehicle accelerates along the road."""
     width = max(1, round(SMOOTHED_S / drive.step))
-    speed = np.convolve(
-        np.pad(_known_speed(drive), width, "edge"), np.full(width, 1 / width), "same"
-    )
+    speed = np.convolve(np.pad(drive.speed, width, "edge"), np.full(width, 1 / width), "same")
     half = max(1, width // 2)
     change = (speed[2 * half :] - speed[: -2 * half]) / (2 * half * drive.step)
     along: FloatArray = change[width - half : width - half + drive.speed.size]
     return np.abs(along) > BRAKING_MPS2
-
-
-def _known_speed(drive: Drive) -> FloatArray:
-    """Return the speed, linear where counts are lost for a moment: a bridge over them is no brake.
-
-    A longer loss, and one at an end of the run, may hide a stop. Where the encoder leaps it is
-    faster than a line, and stays so: nothing is known about it.
-    """
-    # A speed is the difference of the places beside it.
-    near = np.convolve(np.pad(drive.lost, 2), np.ones(5, np.bool_), "valid")
-    bins, speed = np.arange(near.size), drive.speed.copy()
-    edges = np.flatnonzero(np.diff(near, prepend=False, append=False)).reshape(-1, 2)
-    for low, high in edges.tolist():
-        if low > 0 and high < near.size and (high - low) * drive.step <= SHORT_LOSS_S:
-            line = np.interp(bins[low:high], [low - 1, high], speed[[low - 1, high]])
-            speed[low:high] = np.maximum(line, speed[low:high])
-    return speed
-
-
-def rolled_back(lost: BoolArray, distance: FloatArray, step: float) -> BoolArray:
-    """Return which ``lost`` bins lie within a standstill, shape (n,).
-
-    A vehicle that rolls back and returns is where it was: no travel is lost. A wheel that locks
-    stands only from then on.
-    """
-    found, near = np.zeros(lost.size, np.bool_), max(1, round(ROLLED_S / step))
-    edges = np.flatnonzero(np.diff(lost, prepend=False, append=False)).reshape(-1, 2)
-    for low, high in edges.tolist():
-        if near < low and high + near < lost.size:
-            beside = distance[[low - 1 - near, low - 1, high, high + near]]
-            found[low:high] = np.diff(beside).max() <= ROLLED_M
-    return found
 
 
 def _sides(drive: Drive, active: BoolArray) -> Iterator[tuple[int, int]]:

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from floatref.estimators.laser_place.by_model import HeightByModel, trusted
+from floatref.estimators.laser_place.by_model import Bins, HeightByModel, trusted
 from floatref.estimators.laser_place.pitching import LEAST_SAMPLES, model_pitch
 from floatref.estimators.levelling.lines import Means
 from floatref.estimators.road_prior.excitation import Excitation
@@ -41,9 +41,8 @@ class LevelTriggered(LevelByRoad):
         """Ask for acceleration and height of every track, the encoder and the missing share."""
         header.require(self.name, UNKNOWN)
         out = HeightByModel.open(self, header).adding(SIGMA, ROAD)
-        means = Means(self._every, 3 * len(header.tracks) + 2)
-        news = dict.fromkeys(("added", "levelled", "share", "road"))
-        self.memory |= {"means": means, **news}
+        self.memory |= dict.fromkeys(("added", "levelled", "share", "road"))
+        self.memory["bins"] = Bins(Means(self._every, 3 * len(header.tracks) + 2))
         return out
 
     def rows(self, block: Block) -> list[FloatArray]:
@@ -76,7 +75,7 @@ class LevelTriggered(LevelByRoad):
         found = LevelledRoad.over(drive, from_laser(places), self._model(), self.wavelength_m)
         pitch = np.zeros(drive.force.size)
         if any(self.levers_m.values()):
-            pitch = model_pitch(drive.force, drive.height, bins[-1], places)
+            pitch = model_pitch(drive.force, drive.height, drive.distance, places)
         pitch = found.hold(found.pitch, pitch)
         lean = found.hold(found.lean, np.zeros(pitch.size))
         along, response = self._follow(drive)
