@@ -14,6 +14,7 @@ from floatref_adapters.formats.mdf4.adapter import Mdf4
 from floatref_adapters.formats.nmea.adapter import Nmea
 from floatref_adapters.formats.novatel.adapter import NovAtel
 from floatref_adapters.formats.tdms.adapter import Tdms
+from floatref_adapters.formats.viewer_text.text_profile import ViewerText
 from floatref_adapters.views import (
     recording_to_pandas,
     recording_to_xarray,
@@ -34,6 +35,7 @@ def floatref_register_adapters(register: Callable[[Adapter], None]) -> None:
 def floatref_register_profile_formats(register: Callable[[ProfileFormat], None]) -> None:
     """Register every format of profile files of this package."""
     register(Erd())
+    register(ViewerText())
     register(ParquetProfile())
 
 

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
+    from floatref.files.constant_interval import constant_interval as constant_interval
+    from floatref.files.constant_interval import count_decimals as count_decimals
     from floatref.interfaces.adapter import Adapter as Adapter
     from floatref.interfaces.adapter import NativeAdapter as NativeAdapter
     from floatref.interfaces.adapter import RecordingAdapter as RecordingAdapter
@@ -165,6 +167,8 @@ _PUBLIC = {
     "answers": "interfaces.markers",
     "channel_noise": "measures",
     "check_readings": "vehicle_response",
+    "constant_interval": "files.constant_interval",
+    "count_decimals": "files.constant_interval",
     "default_gains": "vehicle_response",
     "high_pass": "measures",
     "hold_error_of": "vehicle_response",

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from floatref.engine.plugins import plugins
+from floatref.engine.withheld_formats import refuse_to_read, refuse_to_write
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import read_profile, write_profile
 from floatref.files.atomic import replace_file
@@ -138,6 +139,7 @@ def profile_of(path: Path) -> Profile:
         form for form in plugins().profile_formats().values() if _recognise_profile(form, path)
     ]
     if not found:
+        refuse_to_read(path)
         return read_profile(path)
     if len(found) > 1:
         both = " and ".join(form.name for form in found)
@@ -201,6 +203,7 @@ def _choose(out: Path, name: str | None) -> ProfileFormat:
         both = " and ".join(form.name for form in found)
         raise InputError(f"{out}: suffix {suffix} is that of {both}; choose with --format")
     if not found:
+        refuse_to_write(out)
         suffixes = ", ".join(form.suffix for form in known.values() if form.suffix)
         raise InputError(
             f"{out}: suffix {out.suffix} is no format; use {suffixes}, no suffix, or --format "
