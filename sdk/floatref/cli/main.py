@@ -17,7 +17,10 @@ COMMANDS = {
         "a straightedge and a profilograph on a profile",
     ),
     "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
-    "convert": ("floatref.cli.convert:convert", "write a profile in another format"),
+    "convert": (
+        "floatref.cli.convert:convert",
+        "write a profile or a recording in another format",
+    ),
     "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters and the profile formats"),
     "channels": (

@@ -1,6 +1,6 @@
 """Choosing adapters and profile formats and calling them; their own failures as one line."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from os.path import exists
@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from floatref.engine.plugins import plugins
-from floatref.engine.withheld_formats import refuse_to_read, refuse_to_write
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import read_profile, write_profile
 from floatref.files.atomic import replace_file
 from floatref.files.sources import name_errors
+from floatref.files.withheld_formats import refuse_to_read, refuse_to_write
 from floatref.interfaces.adapter import (
     Adapter,
     NativeAdapter,
@@ -147,10 +147,10 @@ def profile_of(path: Path) -> Profile:
     return _read(found[0], path)
 
 
-def failure(form: ProfileFormat, path: Path, error: Exception) -> str:
-    """Return one line on an ``error`` that ``form`` raised."""
+def failure(name: str, path: Path, error: Exception) -> str:
+    """Return one line on an ``error`` that the format called ``name`` raised."""
     reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    return f"format {form.name}: {path}: {reason}"
+    return f"format {name}: {path}: {reason}"
 
 
 def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
@@ -160,7 +160,7 @@ def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
         # A name that cannot be opened: reading it raises the error.
         return False
     except Exception as error:
-        plugins().reports.append(failure(form, path, error))
+        plugins().reports.append(failure(form.name, path, error))
         return False
 
 
@@ -170,7 +170,7 @@ def _read(form: ProfileFormat, path: Path) -> Profile:
     except (FloatrefError, OSError):
         raise
     except Exception as error:
-        raise PluginError(failure(form, path, error)) from error
+        raise PluginError(failure(form.name, path, error)) from error
     if not isinstance(profile, Profile):
         raise PluginError(f"format {form.name}: {path}: gave no profile")
     return profile
@@ -221,14 +221,24 @@ def write_as(form: ProfileFormat, profile: Profile, out: Path, overwrite: bool =
     if isinstance(form, ProfileDirectory):
         write_profile(profile, out, overwrite)
         return
+    write_file(form.name, out, lambda beside: form.write(profile, beside), overwrite)
+
+
+def write_file(
+    name: str, out: Path, write: Callable[[Path], None], overwrite: bool = False
+) -> None:
+    """Let ``write``, of the format called ``name``, make a file beside ``out``, then rename it.
+
+    Raises InputError as ``write`` does, with the name of ``out``, and PluginError for its others.
+    """
     with replace_file(out, overwrite) as beside:
         try:
-            form.write(profile, beside)
+            write(beside)
         except InputError as error:
             raise InputError(str(error).replace(str(beside), str(out))) from error
         except (FloatrefError, OSError):
             raise
         except Exception as error:
-            raise PluginError(failure(form, out, error)) from error
+            raise PluginError(failure(name, out, error)) from error
         if not beside.is_file():
-            raise PluginError(f"format {form.name}: {out}: wrote no file")
+            raise PluginError(f"format {name}: {out}: wrote no file")

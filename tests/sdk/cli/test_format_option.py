@@ -40,6 +40,7 @@ def test_every_format_is_offered(folder, invoke, reported):
         ("profile", ""),
         ("csv", ".csv"),
         ("erd", ".erd"),
+        ("text", ".txt"),
         ("parquet", ".parquet"),
     ]
     assert "ERD of UMTRI" in invoke("adapters").output

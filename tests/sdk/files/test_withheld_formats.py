@@ -3,8 +3,8 @@
 import pytest
 
 from floatref.engine.formats import format_of, profile_of
-from floatref.engine.withheld_formats import WITHHELD
 from floatref.errors import InputError
+from floatref.files.withheld_formats import WITHHELD
 
 
 @pytest.mark.parametrize("suffix", sorted(WITHHELD))
