@@ -8,6 +8,7 @@ import click
 
 from floatref.cli.iri_tables import UNITS, print_iri_tables
 from floatref.cli.printing import print_json
+from floatref.cli.segment_places import layer_of, layer_options, write_profile_layer
 from floatref.engine.formats import profile_of
 from floatref.files.sources import name_errors
 from floatref.measures import IriSettings, in_per_mi, mean_roughness_index
@@ -22,17 +23,23 @@ from floatref.values.profile import Profile, ProfileTrack
 @click.option(
     "--units", type=click.Choice(list(UNITS)), default="si", help="m/km (si) or in/mi (us)."
 )
+@layer_options
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def iri(profile: Path, segment_m: float | None, units: str, as_json: bool) -> None:
+def iri(
+    profile: Path, segment_m: float | None, units: str, as_json: bool, **layer_given: Any
+) -> None:
     """Print the IRI of PROFILE: a profile directory or a profile file of any format.
 
     The car runs once over every stretch of valid points, and beside it once over every wheel path;
     then the result is divided into segments.
     """
     settings = IriSettings(segment_m=segment_m)
+    layer = layer_of(**layer_given)
     read = profile_of(profile)
     with name_errors(profile):
         report = iri_report(read, settings, units)
+    if layer is not None:
+        write_profile_layer(read, profile.name, segment_m, layer)
     if as_json:
         print_json(report)
     else:

@@ -113,7 +113,7 @@ class Topic:
 
 
 def topic_of(entry: Mapping[str, Any]) -> Topic:
-    """Return the topic of ``entry``; KeyError, TypeError or ValueError if it does not describe one."""
+    """Return the topic of ``entry``; KeyError, TypeError or ValueError for anything else."""
     rate = entry["rate_hz"]
     return Topic(
         str(entry["topic"]),

@@ -6,6 +6,8 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
+import click
+
 from floatref.batch.jobs.defaults import Defaults
 from floatref.batch.jobs.inputs import Found
 from floatref.batch.jobs.job import Job
@@ -17,6 +19,7 @@ from floatref.batch.results.batch_document import (
 )
 from floatref.batch.results.folder import not_given, prepare_folder
 from floatref.batch.results.record import Returned, returned_records
+from floatref.batch.results.segment_layer import write_segment_layer
 from floatref.batch.results.summary import write_summary
 from floatref.batch.results.totals import Tally
 from floatref.batch.work.cluster import connect, count_workers
@@ -36,6 +39,7 @@ class Work:
     jobs: int | None
     cluster: str | None
     plot: Path | None
+    gis: tuple[Path, ...] = ()
 
     @property
     def command(self) -> Command:
@@ -50,6 +54,7 @@ class Work:
                 "jobs": self.jobs,
                 "cluster": self.cluster,
                 "resume": self.resume,
+                "gis": list(map(str, self.gis)),
             },
         )
 
@@ -64,10 +69,14 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
         wall_s = monotonic() - tally.began_s
         gone = not_given(work.out, found.jobs)
         tell_remarks(found.passed_over, gone)
-        write_summary(returned.of(found.jobs), work.out)
+        measures = work.defaults.measures
+        write_summary(returned.of(found.jobs), work.out, measures)
         finished = Finished(wall_s, workers, found.passed_over, gone)
         document = batch_document(work.command, tally, finished)
         write_batch_document(document, work.out)
+        for layer in work.gis:
+            count = write_segment_layer(returned.of(found.jobs), measures, layer, overwrite=True)
+            click.echo(f"{layer}: {count}", err=True)
         if work.plot is not None:
             _draw(work.out, work.plot)
     return document

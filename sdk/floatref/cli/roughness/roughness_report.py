@@ -27,12 +27,13 @@ from floatref.measures import (
     waveband_energy,
 )
 from floatref.measures.ride.bumps_and_dips import AVERAGE_BASE_M, DEVIATION_LIMIT_M
-from floatref.measures.roughness.roughness_profile import BASE_M, TENTH_OF_A_MILE_M
+from floatref.measures.roughness.roughness_profile import (
+    BASE_M,
+    LOCALIZED_ABOVE_M_PER_KM,
+    TENTH_OF_A_MILE_M,
+)
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
-
-LOCALIZED_ABOVE_M_PER_KM = 2.5
-"""Continuous IRI in m/km above which roughness is localized, unless a contract says otherwise."""
 
 OF_ONE_PATH: dict[str, float | None] = dict.fromkeys(
     ("mean_roughness_index_m_per_km", "half_car_roughness_index_m_per_km", "ride_number")
