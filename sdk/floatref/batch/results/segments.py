@@ -67,7 +67,7 @@ def measure_segments(
 def _measure_ride(
     profile: Profile, edges: IndexArray, limits: RideLimits | None, remarks: list[str]
 ) -> Sequence[Sequence[SegmentMeasures]]:
-    """Return the measures of every segment of every wheel path; add a remark if there are none."""
+    """Return the measures of every segment of every wheel path; add a remark if they fail."""
     try:
         return segment_measures(profile, edges, limits)
     except InputError as error:

@@ -56,7 +56,7 @@ TOGETHER = 4096
 
 
 def measure_columns(measures: bool) -> Mapping[str, type]:
-    """Return the columns of the measures of ride and their types, none without ``measures``.
+    """Return the columns of the measures of ride and their types; without ``measures``, no column.
 
     The rating is that of the mean roughness index of all points, or of the only wheel path.
     """
