@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from floatref.cli.number_option import number_option
 from floatref.cli.printing import print_json
 from floatref.cli.roughness.roughness_report import RoughnessLimits, roughness_report
 from floatref.cli.roughness.roughness_tables import print_tables
@@ -25,33 +26,20 @@ DEFAULT = RoughnessLimits()
     metavar="LEFT RIGHT",
     help="The wheel paths of the lane, where PROFILE has more than two.",
 )
-@click.option(
+@number_option(
     "--threshold",
-    "threshold_m_per_km",
-    type=float,
-    metavar="M_PER_KM",
-    default=DEFAULT.threshold_m_per_km,
-    show_default=True,
-    help="Continuous IRI over 7.62 m above which roughness is localized, in m/km.",
+    DEFAULT.threshold_m_per_km,
+    "Continuous IRI over 7.62 m above which roughness is localized, in m/km.",
+    name="threshold_m_per_km",
+    unit="M_PER_KM",
 )
-@click.option(
+@number_option(
     "--deviation",
-    "deviation_m",
-    type=float,
-    metavar="METRES",
-    default=DEFAULT.deviation_m,
-    show_default=True,
-    help="Deviation from the moving average beyond which there is a bump or a dip.",
+    DEFAULT.deviation_m,
+    "Deviation from the moving average beyond which there is a bump or a dip.",
+    name="deviation_m",
 )
-@click.option(
-    "--section",
-    "section_m",
-    type=float,
-    metavar="METRES",
-    default=DEFAULT.section_m,
-    show_default=True,
-    help="Length of a section.",
-)
+@number_option("--section", DEFAULT.section_m, "Length of a section.", name="section_m")
 @click.option(
     "--band",
     "bands",

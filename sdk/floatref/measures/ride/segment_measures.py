@@ -11,20 +11,13 @@ from math import nan
 
 import numpy as np
 
-from floatref.measures.ride.bumps_and_dips import (
-    AVERAGE_BASE_M,
-    BASE,
-    DEVIATION_LIMIT_M,
-    deviation_from_average,
-)
-from floatref.measures.ride.deviation_areas import half_count, sound_points
+from floatref.measures.ride.bumps_and_dips import DEVIATION_LIMIT_M, average_deviation
 from floatref.measures.ride.profile_index import CALIFORNIA_RULES, index_of_stretch
 from floatref.measures.ride.profilograph import profilograph_trace, valid_frames
 from floatref.measures.ride.rolling_straightedge import (
     EIGHTH_INCH_M,
-    LENGTH,
     TEN_FEET_M,
-    straightedge_deviation,
+    roll_straightedge,
 )
 from floatref.measures.ride.two_paths import join_profile_indices, mean_path, ride_number
 from floatref.measures.roughness.areas import share
@@ -145,14 +138,12 @@ def _measure_track(
     z, valid = track.elevation, track.valid
     ride = iri_trace(z, interval_m, STANDARD, RIDE_NUMBER_CAR) / M_PER_KM
     rough, bases = short_interval_roughness(z, interval_m), valid_bases(z, interval_m, valid=valid)
-    half = half_count(limits.straightedge_m, interval_m, LENGTH)
-    edge = straightedge_deviation(z, interval_m, limits.straightedge_m)
-    edge_sound = sound_points(valid, z, half, half)
+    edge = roll_straightedge(z, interval_m, limits.straightedge_m, valid=valid)
     trace, frames = profilograph_trace(z, interval_m), valid_frames(z, interval_m, valid=valid)
     found = []
     for cut in cuts:
         index = _root_mean_square(ride[cut.intervals])
-        part, sizes = rough[cut.intervals], np.abs(edge[cut.points])
+        part, sizes = rough[cut.intervals], np.abs(edge.values[cut.points])
         read = index_of_stretch(trace[cut.points], frames[cut.points], interval_m, CALIFORNIA_RULES)
         measures = SegmentMeasures(
             ride_number=ride_number(index) if index == index else nan,
@@ -161,7 +152,7 @@ def _measure_track(
             localized_roughness_valid_share=_valid(part, bases[cut.intervals]),
             straightedge_largest_m=_largest(sizes),
             straightedge_defective_share=share(sizes[np.isfinite(sizes)] > limits.tolerance_m),
-            straightedge_valid_share=_valid(sizes, edge_sound[cut.points]),
+            straightedge_valid_share=_valid(sizes, edge.sound[cut.points]),
             profile_index_m_per_km=read.profile_index_m_per_km,
             profile_index_valid_share=read.valid_share,
         )
@@ -177,13 +168,12 @@ def _measure_lane(
         return [{} for _ in cuts]
     first, last, interval = profile.tracks[0], profile.tracks[-1], profile.interval_m
     mean, valid = mean_path(first.elevation, last.elevation, interval), first.valid & last.valid
-    half = half_count(AVERAGE_BASE_M, interval, BASE)
-    off, sound = deviation_from_average(mean, interval), sound_points(valid, mean, half, half)
+    off = average_deviation(mean, interval, valid=valid)
     paired = len(profile.tracks) == 2
     car = np.abs(iri_trace(mean, interval)) if paired else np.full(mean.size - 1, nan)
     found = []
     for cut, *same in zip(cuts, *indices, strict=True):
-        sizes = np.abs(off[cut.points])
+        sizes = np.abs(off.values[cut.points])
         joined = join_profile_indices(*same) if paired else nan
         found.append(
             {
@@ -191,7 +181,7 @@ def _measure_lane(
                 "lane_ride_number": ride_number(joined) if joined == joined else nan,
                 "bumps_and_dips_m": _length(sizes, limits.deviation_m, cut, interval),
                 "bumps_and_dips_largest_m": _largest(sizes),
-                "bumps_and_dips_valid_share": _valid(sizes, sound[cut.points]),
+                "bumps_and_dips_valid_share": _valid(sizes, off.sound[cut.points]),
                 "lane_valid_share": share(valid[cut.points]),
             }
         )
