@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 from asammdf import MDF
+from hypothesis import given, settings
+from tests.adapters.drawn_recordings import recordings
 
 from floatref import Channel, Recording, StampedClock, UniformClock, read_native
 from floatref.engine.formats import native_of, reader_of
@@ -52,6 +54,19 @@ def test_a_drafted_map_reads_the_same_samples_and_clocks(tmp_path, monkeypatch, 
         np.testing.assert_array_equal(back.values, channel.values[there])
         np.testing.assert_allclose(back.times_s, channel.times_s[there], rtol=0, atol=1e-12)
         assert not uniform or back.clock.rate == channel.clock.rate
+
+
+@settings(max_examples=20)
+@given(recording=recordings())
+def test_what_is_written_is_read_again_by_asammdf(tmp_path_factory, recording):
+    path = tmp_path_factory.getbasetemp() / "law.mf4"
+    Mf4Recording().write(recording, path)
+    with MDF(path) as mdf:
+        for channel in recording.channels:
+            signal = mdf.get(str(channel.id))
+            np.testing.assert_array_equal(signal.samples, channel.values)
+            far = np.abs(channel.times_s).max()
+            np.testing.assert_allclose(signal.timestamps, channel.times_s, rtol=0, atol=1e-15 * far)
 
 
 def test_asammdf_shows_names_units_and_times(tmp_path):
