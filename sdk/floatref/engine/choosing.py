@@ -40,20 +40,21 @@ def choices_for(recording: Recording, known: Mapping[str, Pipeline]) -> tuple[Ch
 
     Raises InputError, which names an absent channel, where no pipeline can be taken.
     """
-    found = tuple(_choices(recording, known))
+    found = tuple(usable(recording, known))
     if not found:
         # It names the channel of a profiler that is absent.
         nominal_needs(recording).channels(recording)
     return found
 
 
-def _choices(recording: Recording, known: Mapping[str, Pipeline]) -> Iterator[Choice]:
+def usable(recording: Recording, known: Mapping[str, Pipeline]) -> Iterator[Choice]:
+    """Yield the pipelines of `choices_for`; it is empty where no pipeline can be taken."""
     for name, reason in BEST:
-        if name in known and _has_channels(recording, known[name]):
+        if name in known and has_channels(recording, known[name]):
             yield Choice(name, reason)
 
 
-def _has_channels(recording: Recording, pipeline: Pipeline) -> bool:
+def has_channels(recording: Recording, pipeline: Pipeline) -> bool:
     """Return whether every channel that ``pipeline`` reads is there, for every wheel path."""
     try:
         needs = NEEDS[pipeline.architecture](recording)

@@ -29,7 +29,8 @@ class Pipeline:
     numbers with their defaults, all above zero except the ``signed`` ones; None is a number that
     the recording decides. ``channels`` are the channels that it reads in addition to the nominal
     ones, for every track or shared, and ``readings`` those of GNSS; ``capabilities`` are the
-    sensors that deliver them.
+    sensors that deliver them. ``through_stops`` is whether it measures the road where the vehicle
+    stops and creeps; None if that is not stated.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Pipeline:
     readings: tuple[str, ...] = ()
     capabilities: tuple[str, ...] = ()
     signed: tuple[str, ...] = ()
+    through_stops: bool | None = None
 
     def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:
         """Return the settings, with the ``given`` ones replaced; InputError if one is not possible.
@@ -79,11 +81,13 @@ class Pipeline:
         name: str,
         summary: str,
         settings: Mapping[str, float | None] | None = None,
+        through_stops: bool | None = None,
         **answers: Answer,
     ) -> "Pipeline":
         """Return a pipeline of another ``name`` with these ``answers``, by point.
 
-        ``settings`` are added to those that it has, or replace their defaults.
+        ``settings`` are added to those that it has, or replace their defaults. Whether it measures
+        ``through_stops`` stays as it is unless given.
         """
         return replace(
             self,
@@ -91,6 +95,7 @@ class Pipeline:
             summary=summary,
             settings={**self.settings, **(settings or {})},
             answers={**self.answers, **answers},
+            through_stops=self.through_stops if through_stops is None else through_stops,
         )
 
 

@@ -1,5 +1,6 @@
 """The travel speed of a recording, at even times."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -7,10 +8,17 @@ import numpy as np
 from floatref.screening.damage.encoder_path import times_at
 from floatref.stages.signals import DISTANCE
 from floatref.stages.speed import WINDOW_S, progress_speed
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import every
+
+STANDS_S, STANDS_M = 0.7, 0.002
+"""A vehicle stops that travels less than the second in m during the first in s."""
+MEAN_S = 0.5
+"""Time in s of the mean speed below which travel is slow, as in `MarkDrive`."""
+ONE_STOP_M = 1.0
+"""Stops that are nearer to one another, in m, are one: a vehicle rocks, or moves up a little."""
 
 
 class Travel(NamedTuple):
@@ -44,6 +52,28 @@ class Travel(NamedTuple):
         window = min(round(1.0 / WINDOW_S), self.speed_mps.size)
         sums = np.convolve(self.speed_mps, np.ones(window), "valid")
         return max(0.0, float(sums.max()) / window)
+
+    def stops_m(self) -> tuple[float, ...]:
+        """Return where the vehicle stops, in m of the encoder, in order."""
+        begins = [begin for begin, _ in self._stretches(self._slower(STANDS_M, STANDS_S))]
+        apart = (b - a >= ONE_STOP_M for a, b in zip(begins, begins[1:], strict=False))
+        return tuple([*begins[:1], *(b for b, far in zip(begins[1:], apart, strict=True) if far)])
+
+    def slow_stretches_m(self, slow_mps: float) -> tuple[tuple[float, float], ...]:
+        """Return begin and end of every stretch of travel below ``slow_mps``, in m, in order."""
+        return tuple(self._stretches(self._slower(slow_mps * MEAN_S, MEAN_S)))
+
+    def _slower(self, least_m: float, during_s: float) -> BoolArray:
+        """Return from which places on less than ``least_m`` is travelled ``during_s``."""
+        ahead = round(during_s / WINDOW_S)
+        if self.distance_m.size <= ahead:
+            return np.zeros(0, np.bool_)
+        return np.asarray(self.distance_m[ahead:] - self.distance_m[:-ahead] < least_m)
+
+    def _stretches(self, chosen: BoolArray) -> Iterator[tuple[float, float]]:
+        edges = np.flatnonzero(np.diff(chosen, prepend=False, append=False))
+        for begin, end in edges.reshape(-1, 2).tolist():
+            yield float(self.distance_m[begin]), float(self.distance_m[end])
 
 
 def _stride(channel: Channel) -> int:
