@@ -11,6 +11,7 @@ from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
+from floatref.values.similar_names import suggest
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import ARCHITECTURES, DeviceEntry, DeviceKind
 
@@ -81,7 +82,8 @@ def make(pipeline: str) -> BuiltinDevice:
     """Return the device of ``pipeline``; InputError if floatref has no such pipeline."""
     names = tuple(floatref.pipelines())
     if pipeline not in names:
-        raise InputError(f"device builtin:{pipeline}: unknown pipeline; known: {', '.join(names)}")
+        known = suggest(pipeline, names, "known:")
+        raise InputError(f"device builtin:{pipeline}: unknown pipeline; {known}")
     return BuiltinDevice(pipeline)
 
 

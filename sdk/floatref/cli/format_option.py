@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from floatref.cli.choices import OneOf
 from floatref.engine.plugins import plugins
 
 if TYPE_CHECKING:
@@ -24,4 +25,4 @@ class FormatName(NameType):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return ``value`` if it is the name of a format."""
-        return str(click.Choice(list(plugins().profile_formats())).convert(value, param, ctx))
+        return str(OneOf(list(plugins().profile_formats())).convert(value, param, ctx))

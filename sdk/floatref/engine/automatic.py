@@ -12,6 +12,7 @@ from floatref.engine.run import Progress, Result, run
 from floatref.errors import InputError
 from floatref.interfaces.pipeline import OF_ALL, Pipeline
 from floatref.values.recording import Recording
+from floatref.values.similar_names import hint_at
 
 
 def run_named_or_best(
@@ -80,8 +81,10 @@ def resolve_named_or_best(pipeline: str, given: Mapping[str, Any]) -> dict[str, 
     found = {each.name: each.resolve(given) for each in able if _has(each, given)}
     if not found:
         names = ", ".join(sorted(given))
+        of_all = {name for each in known.values() for name in each.settings}
+        hint = "".join(hint_at(name, of_all) for name in given if name not in {*of_all, *OF_ALL})
         raise InputError(
-            f"settings {names}: no pipeline of `{AUTO}` has them all; name the pipeline"
+            f"settings {names}: no pipeline of `{AUTO}` has them all; name the pipeline{hint}"
         )
     return found
 

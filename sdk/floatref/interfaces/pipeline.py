@@ -10,6 +10,7 @@ from floatref.errors import InputError
 from floatref.interfaces.stage_calls import StageCall
 from floatref.stages.protocol import Stage
 from floatref.values.block import Header
+from floatref.values.similar_names import suggest
 
 Answer = Callable[["Context"], Sequence[Stage | StageCall]] | Sequence[StageCall]
 """A pipeline's answer at a point: calls of registered stages, or a function that returns stages or
@@ -51,9 +52,9 @@ class Pipeline:
         """
         for name in given:
             if name not in self.settings and name not in OF_ALL:
-                known = ", ".join((*self.settings, *OF_ALL))
+                known = suggest(name, (*self.settings, *OF_ALL), "it has")
                 raise InputError(
-                    f"setting {name}: pipeline {self.name} has no such setting; it has {known}"
+                    f"setting {name}: pipeline {self.name} has no such setting; {known}"
                 )
         chosen = {
             name: _number(name, value, name in self.signed or name in OF_ALL)

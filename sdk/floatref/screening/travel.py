@@ -55,9 +55,11 @@ class Travel(NamedTuple):
 
     def stops_m(self) -> tuple[float, ...]:
         """Return where the vehicle stops, in m of the encoder, in order."""
-        begins = [begin for begin, _ in self._stretches(self._slower(STANDS_M, STANDS_S))]
-        apart = (b - a >= ONE_STOP_M for a, b in zip(begins, begins[1:], strict=False))
-        return tuple([*begins[:1], *(b for b, far in zip(begins[1:], apart, strict=True) if far)])
+        places: list[float] = []
+        for begin, _ in self._stretches(self._slower(STANDS_M, STANDS_S)):
+            if not places or begin - places[-1] >= ONE_STOP_M:
+                places.append(begin)
+        return tuple(places)
 
     def slow_stretches_m(self, slow_mps: float) -> tuple[tuple[float, float], ...]:
         """Return begin and end of every stretch of travel below ``slow_mps``, in m, in order."""

@@ -92,7 +92,7 @@ def test_an_existing_target_needs_overwrite(folder, ran, refused):
     ("args", "message"),
     [
         (["missing", "--out", "o"], "missing: not found"),
-        (["run", "--out", "o", "--adapter", "mdf5"], "adapter mdf5: unknown; there are"),
+        (["run", "--out", "o", "--adapter", "mdf5"], "adapter mdf5: unknown; did you mean mdf4?"),
         (["run", "--out", "o", "--pipeline", "x"], "pipeline x: unknown; there are"),
         (["run", "--out", "o.xls"], "suffix .xls is no format"),
         (["run", "--out", "o", "--settings", "no.json"], "no.json"),
