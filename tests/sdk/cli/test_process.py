@@ -54,8 +54,8 @@ def test_json_holds_what_the_contract_says(folder, invoke):
     fields = ["pipeline", "reason", "profile", "interval_m", "length_m", "tracks", "warnings"]
     assert list(report) == fields
     assert report["reason"] is None
-    assert [sorted(track) for track in report["tracks"]] == [
-        ["invalid_m", "iri_m_per_km", "name"]
+    assert [list(track) for track in report["tracks"]] == [
+        ["name", "iri_m_per_km", "iri_of_valid_m_per_km", "counted_share", "invalid_m"]
     ] * 2
     assert report["tracks"][0]["invalid_m"] == pytest.approx(105.91, abs=0.1)
     assert report["tracks"][1]["invalid_m"] == pytest.approx(106.91, abs=0.2)
@@ -135,6 +135,7 @@ def test_a_profile_without_an_iri_is_written_with_a_warning(folder, settings, ra
     )
     report = json.loads(result.stdout)
     assert report["tracks"][0]["iri_m_per_km"] is None
+    assert report["tracks"][0]["counted_share"] is None
     assert any("track left: no IRI: " in line for line in report["warnings"])
     assert (folder / "coarse").is_dir()
 
