@@ -22,7 +22,7 @@ from floatref.batch.results.totals import Tally
 from floatref.batch.work.cluster import connect, count_workers
 from floatref.batch.work.running import run_jobs
 from floatref.batch.work.worker_patience import patient, silence
-from floatref.cli.batch.batch_report import progress, tell_remarks
+from floatref.cli.batch.batch_report import progress, tell_remarks, tell_warnings
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,7 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
         wall_s = monotonic() - tally.began_s
         gone = not_given(work.out, found.jobs)
         tell_remarks(found.passed_over, gone)
+        tell_warnings(tally)
         write_summary(returned.of(found.jobs), work.out)
         finished = Finished(wall_s, workers, found.passed_over, gone)
         document = batch_document(work.command, tally, finished)
