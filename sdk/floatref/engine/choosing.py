@@ -56,10 +56,18 @@ def usable(recording: Recording, known: Mapping[str, Pipeline]) -> Iterator[Choi
 
 def has_channels(recording: Recording, pipeline: Pipeline) -> bool:
     """Return whether every channel that ``pipeline`` reads is there, for every wheel path."""
+    return not missing_for(recording, pipeline)
+
+
+def missing_for(recording: Recording, pipeline: Pipeline) -> str:
+    """Return what ``pipeline`` needs and ``recording`` lacks, a channel or the vehicle, or ""."""
     try:
         needs = NEEDS[pipeline.architecture](recording)
         needs.channels(recording)
-    except InputError:
-        return False
-    named = *pipeline.channels, *pipeline.readings
-    return all(recording.find(name, track) is not None for track in needs.tracks for name in named)
+    except InputError as error:
+        return str(error).partition(": missing")[0].removeprefix("channel ")
+    for track in needs.tracks:
+        for name in (*pipeline.channels, *pipeline.readings):
+            if recording.find(name, track) is None:
+                return name
+    return ""

@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from floatref.screening.damage.encoder_damage import HARDEST
 from floatref.screening.damage.encoder_path import times_at
 from floatref.stages.signals import DISTANCE
 from floatref.stages.speed import WINDOW_S, progress_speed
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import every
@@ -56,26 +57,29 @@ class Travel(NamedTuple):
     def stops_m(self) -> tuple[float, ...]:
         """Return where the vehicle stops, in m of the encoder, in order."""
         places: list[float] = []
-        for begin, _ in self._stretches(self._slower(STANDS_M, STANDS_S)):
+        for begin, _ in self._stretches(STANDS_M, STANDS_S):
             if not places or begin - places[-1] >= ONE_STOP_M:
                 places.append(begin)
         return tuple(places)
 
     def slow_stretches_m(self, slow_mps: float) -> tuple[tuple[float, float], ...]:
         """Return begin and end of every stretch of travel below ``slow_mps``, in m, in order."""
-        return tuple(self._stretches(self._slower(slow_mps * MEAN_S, MEAN_S)))
+        return tuple(self._stretches(slow_mps * MEAN_S, MEAN_S))
 
-    def _slower(self, least_m: float, during_s: float) -> BoolArray:
-        """Return from which places on less than ``least_m`` is travelled ``during_s``."""
+    def _stretches(self, least_m: float, during_s: float) -> Iterator[tuple[float, float]]:
+        """Yield the stretches from whose places on less than ``least_m`` is travelled ``during_s``.
+
+        One into which no vehicle can brake is no travel: the encoder has lost its counts there.
+        """
         ahead = round(during_s / WINDOW_S)
         if self.distance_m.size <= ahead:
-            return np.zeros(0, np.bool_)
-        return np.asarray(self.distance_m[ahead:] - self.distance_m[:-ahead] < least_m)
-
-    def _stretches(self, chosen: BoolArray) -> Iterator[tuple[float, float]]:
-        edges = np.flatnonzero(np.diff(chosen, prepend=False, append=False))
+            return
+        slower = self.distance_m[ahead:] - self.distance_m[:-ahead] < least_m
+        edges = np.flatnonzero(np.diff(slower, prepend=False, append=False))
+        fastest = least_m / during_s + HARDEST * during_s
         for begin, end in edges.reshape(-1, 2).tolist():
-            yield float(self.distance_m[begin]), float(self.distance_m[end])
+            if self.speed_mps[begin] <= fastest:
+                yield float(self.distance_m[begin]), float(self.distance_m[end])
 
 
 def _stride(channel: Channel) -> int:

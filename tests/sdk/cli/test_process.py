@@ -166,12 +166,5 @@ def test_a_drawing_is_not_left_behind_when_the_profile_fails(folder, monkeypatch
 
 
 def test_listings(folder, invoke, reported):
-    pipelines = reported("pipelines")["pipelines"]
-    assert [p["name"] for p in pipelines][:3] == [
-        "temporal-basic",
-        "temporal-mean-removal",
-        "temporal-hpf",
-    ]
     assert "recording" in invoke("adapters").output
-    assert re.search(r"temporal-mean-removal +temporal ", invoke("pipelines").output)
     assert reported("adapters")["adapters"][0]["name"] == "recording"

@@ -104,3 +104,9 @@ def test_creeping_is_slow_and_no_stop(speed: float, count_m: float) -> None:
     assert not travel.stops_m()
     ((begin, end),) = travel.slow_stretches_m(4.0)
     assert (begin, end) == pytest.approx((30.0, 38.0), abs=5.0)
+
+
+def test_counts_that_are_lost_at_speed_are_no_stop() -> None:
+    speed = np.concatenate([np.full(200, 25.0), np.zeros(200), np.full(200, 25.0)])
+    travel = Travel.of(recorded(np.cumsum(speed) / 100.0, 100.0))
+    assert travel.stops_m() == travel.slow_stretches_m(4.0) == ()
