@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from floatref.errors import FloatrefError, InputError
-from floatref.values.similar_names import nearest, suggest
+from floatref.values.display.similar_names import nearest, suggest
 from floatref_conformance.checks.catalogue import IDS, LeftOut, not_built
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.devices.interface import Device, DeviceKind

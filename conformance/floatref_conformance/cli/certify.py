@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from floatref.errors import InputError
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.certify.plan.plan_document import Plan, Processing
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.certify_options import Limit, limits_with, plan_of

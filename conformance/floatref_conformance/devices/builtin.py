@@ -9,9 +9,9 @@ from typing import Any
 import floatref
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
-from floatref.values.similar_names import suggest
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import ARCHITECTURES, DeviceEntry, DeviceKind
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from floatref.errors import InputError
-from floatref.values.similar_names import did_you_mean
+from floatref.values.display.similar_names import did_you_mean
 from floatref_conformance.faults.listed import ListedFault
 from floatref_conformance.faults.of_accelerometers import ACCELEROMETER_FAULTS
 from floatref_conformance.faults.of_encoders import ENCODER_FAULTS

@@ -7,8 +7,8 @@ from functools import cache, partial
 from multiprocessing import get_context
 
 from floatref.errors import FloatrefError, InputError
+from floatref.values.display.similar_names import suggest
 from floatref.values.recording import Recording
-from floatref.values.similar_names import suggest
 from floatref_conformance.devices.builtin import make, process_with_warnings
 from floatref_conformance.faults.fault_list import FAULTS, find_fault
 from floatref_conformance.faults.outcomes import Outcome, Truth, judge

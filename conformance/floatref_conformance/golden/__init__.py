@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 
 FORMAT = "floatref-golden/1"
 SUFFIX = ".json"

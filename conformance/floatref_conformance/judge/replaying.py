@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from floatref.errors import InputError
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.checks.interface import Check

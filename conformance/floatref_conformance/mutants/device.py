@@ -13,7 +13,7 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.builtin import BuiltinDevice, process_quietly

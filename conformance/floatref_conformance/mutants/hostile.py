@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from floatref.errors import InputError
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.devices.executable import ExecDevice
 
 PIPELINE = "temporal-adaptive-hpf-spatial-backward"

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from floatref.errors import InputError
 from floatref.files import read_schema
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 
 T = TypeVar("T")
 

@@ -7,9 +7,9 @@ from importlib.metadata import version
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
-from floatref.values.similar_names import suggest
 from floatref_conformance.proving_ground.parked import park
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.roads.wander import Line

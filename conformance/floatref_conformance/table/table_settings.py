@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from floatref.errors import InputError
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.devices import builtin
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle

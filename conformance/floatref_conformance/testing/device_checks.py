@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import pytest
 
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.checks.verdict import Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from floatref.values.similar_names import did_you_mean
+from floatref.values.display.similar_names import did_you_mean
 
 if TYPE_CHECKING:
     Choice = click.Choice[str]

@@ -5,14 +5,14 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from floatref.engine.advice.named_pipeline import lost_at_stops, other_for_channels
 from floatref.engine.choosing import AUTO, BEST, Choice, choices_for
-from floatref.engine.named_pipeline import lost_at_stops, other_for_channels
 from floatref.engine.plugins import plugins
 from floatref.engine.run import Progress, Result, run
 from floatref.errors import InputError
 from floatref.interfaces.pipeline import OF_ALL, Pipeline
+from floatref.values.display.similar_names import hint_at
 from floatref.values.recording import Recording
-from floatref.values.similar_names import hint_at
 
 
 def run_named_or_best(

@@ -19,10 +19,10 @@ from floatref.interfaces.adapter import (
     RecordingDirectory,
 )
 from floatref.interfaces.profile_format import ProfileDirectory, ProfileFormat
+from floatref.values.display.similar_names import hint_at, suggest
 from floatref.values.native import NativeFile
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
-from floatref.values.similar_names import hint_at, suggest
 
 T = TypeVar("T")
 

@@ -34,8 +34,8 @@ from floatref.interfaces.markers import PROJECT
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.interfaces.profile_format import ProfileFormat
 from floatref.stages.protocol import Stage
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile
-from floatref.values.similar_names import suggest
 
 VARIABLE = "FLOATREF_TRACE"
 HOOKS = frozenset({"hooks", "1"})
@@ -43,8 +43,7 @@ HOOKS = frozenset({"hooks", "1"})
 
 def trace_hook(plugin: str, hook: str, outcome: str) -> None:
     """Print which plug-in was called, for which hook, and the outcome, if hooks are traced."""
-    words = {word.strip() for word in os.environ.get(VARIABLE, "").split(",")}
-    if words & HOOKS:
+    if HOOKS & {word.strip() for word in os.environ.get(VARIABLE, "").split(",")}:
         print(f"hook {hook}: plug-in {plugin}: {outcome}", file=sys.stderr)
 
 

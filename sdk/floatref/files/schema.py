@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from floatref.errors import InputError
 from floatref.files.document import show
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 
 if TYPE_CHECKING:
     from jsonschema import Draft202012Validator, ValidationError

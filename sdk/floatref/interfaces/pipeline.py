@@ -10,7 +10,7 @@ from floatref.errors import InputError
 from floatref.interfaces.stage_calls import StageCall
 from floatref.stages.protocol import Stage
 from floatref.values.block import Header
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 
 Answer = Callable[["Context"], Sequence[Stage | StageCall]] | Sequence[StageCall]
 """A pipeline's answer at a point: calls of registered stages, or a function that returns stages or

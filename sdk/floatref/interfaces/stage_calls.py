@@ -7,7 +7,7 @@ from typing import Any
 
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.stages.protocol import Stage
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 
 
 @dataclass(frozen=True)

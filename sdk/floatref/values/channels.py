@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from floatref.errors import InputError
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 
 STANDARD_GRAVITY = 9.80665
 """Standard gravity g in m/s², added by an accelerometer at rest."""

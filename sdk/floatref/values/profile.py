@@ -21,8 +21,8 @@ from floatref.values.display.short_text import (
     share_of,
     shorten,
 )
+from floatref.values.display.similar_names import hint_at
 from floatref.values.display.views import view
-from floatref.values.similar_names import hint_at
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -13,10 +13,10 @@ from floatref.values.channels import CHANNELS, ChannelId, channel_spec, check_un
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.display.html_table import html_table
 from floatref.values.display.short_text import join_some, percent, rate_text, share_of, shorten
+from floatref.values.display.similar_names import hint_at
 from floatref.values.display.views import view
 from floatref.values.installation import ORIGIN, Setup, TrackSetup, Vector, check_interval
 from floatref.values.scanning import first_where
-from floatref.values.similar_names import hint_at
 from floatref.values.vehicle_setup import VehicleSetup
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from floatref.errors import InputError
 from floatref.files.schema import enforce_schema
 from floatref.files.sources import name_errors
 from floatref.files.toml_document import read_toml
-from floatref.values.similar_names import did_you_mean
+from floatref.values.display.similar_names import did_you_mean
 from floatref_conformance.certify.plan.run_paths import check_exists, runs_of
 from floatref_conformance.schemas import read_schema
 

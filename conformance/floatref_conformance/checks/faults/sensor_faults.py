@@ -13,8 +13,8 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock
+from floatref.values.display.similar_names import suggest
 from floatref.values.recording import Channel, Recording
-from floatref.values.similar_names import suggest
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED, RESPONSE
 from floatref_conformance.checks.faults.injection import (
     DISTANCE,

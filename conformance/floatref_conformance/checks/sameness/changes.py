@@ -9,9 +9,9 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.clock import StampedClock
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
-from floatref.values.similar_names import suggest
 from floatref_conformance.checks.sameness.change import (
     Change,
     Numbers,

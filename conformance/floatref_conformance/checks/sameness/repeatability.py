@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile
-from floatref.values.similar_names import suggest
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.interface import Bench
 from floatref_conformance.checks.rounded import rounded_numbers, seeds

@@ -14,7 +14,7 @@ from types import MappingProxyType
 
 from floatref.errors import InputError
 from floatref.values.channels import STANDARD_GRAVITY
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.proving_ground.drives import manoeuvres
 from floatref_conformance.proving_ground.drives.drive import Drive
 

@@ -29,7 +29,7 @@ from scipy.special import k1
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.proving_ground.roads.road import (
     RUN_OUT_M,
     SPACING_M,

@@ -12,7 +12,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from floatref.errors import InputError
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.proving_ground.vehicles.axle import Axle
 from floatref_conformance.proving_ground.vehicles.full_car import Vehicle
 from floatref_conformance.proving_ground.vehicles.linear_models import (

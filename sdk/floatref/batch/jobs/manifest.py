@@ -11,7 +11,7 @@ from floatref.batch.jobs.defaults import Defaults, read_given_map
 from floatref.errors import InputError
 from floatref.files.settings_file import read_settings
 from floatref.files.sources import name_errors, open_bytes
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 
 COLUMNS = ("file", "adapter", "map", "pipeline", "settings")
 COMMENT = "#"

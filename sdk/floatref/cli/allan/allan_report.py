@@ -9,9 +9,9 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.measures.allan.at_rest import ChannelNoise
 from floatref.measures.allan.noise_fit import NoiseCoefficients
+from floatref.values.display.similar_names import suggest
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import Summary
-from floatref.values.similar_names import suggest
 
 ANALYSED = (
     *("roll_rate", "pitch_rate", "yaw_rate"),

@@ -4,7 +4,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from floatref.engine.by_sensors import pipelines_by_sensors
+from floatref.engine.advice.by_sensors import pipelines_by_sensors
 from floatref.engine.choosing import missing_for, usable
 from floatref.engine.plugins import plugins
 from floatref.screening.travel import Travel

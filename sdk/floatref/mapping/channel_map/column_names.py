@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from floatref.errors import InputError, one_line
 from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap
 from floatref.values.channels import CHANNELS
+from floatref.values.display.similar_names import did_you_mean
 from floatref.values.native import Column, NativeFile, Stream
-from floatref.values.similar_names import did_you_mean
 
 Place = tuple[Stream, Column]
 MOST = 4096

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from floatref.errors import InputError
-from floatref.values.similar_names import did_you_mean
+from floatref.values.display.similar_names import did_you_mean
 
 MPS = "m/s"
 """The SI unit of speed; a speed is integrated into a distance."""

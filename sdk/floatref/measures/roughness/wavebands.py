@@ -13,7 +13,7 @@ from floatref.measures.roughness.agreement import Agreement, cross_correlation
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import FloatArray
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 
 
 class Waveband(NamedTuple):

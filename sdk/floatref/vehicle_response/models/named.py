@@ -5,7 +5,7 @@ from dataclasses import fields
 from types import MappingProxyType
 
 from floatref.errors import InputError
-from floatref.values.similar_names import suggest
+from floatref.values.display.similar_names import suggest
 from floatref.values.vehicle_setup import VehicleSetup
 from floatref.vehicle_response.models.half_car import HALF_CAR, HalfCar
 from floatref.vehicle_response.models.model import VehicleModel

@@ -9,7 +9,7 @@ import pytest
 
 import floatref
 from floatref import Recording
-from floatref.engine.by_sensors import SENSORS
+from floatref.engine.advice.by_sensors import SENSORS
 from floatref.engine.choosing import BEST
 from floatref.engine.plugins import plugins
 from floatref.files import write_recording

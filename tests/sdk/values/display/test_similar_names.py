@@ -4,7 +4,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from floatref.values.similar_names import did_you_mean, hint_at, list_names, nearest, suggest
+from floatref.values.display.similar_names import (
+    did_you_mean,
+    hint_at,
+    list_names,
+    nearest,
+    suggest,
+)
 
 WORDS = st.text("abcdefgh_", min_size=6, max_size=12)
 

@@ -14,7 +14,7 @@ MOST_LISTED = 24
 
 
 def nearest(name: object, known: Iterable[str], alike: float = ALIKE) -> str:
-    """Return the one of ``known`` that ``name`` was meant to be, empty if there is none.
+    """Return the one of ``known`` that ``name`` was meant to be, empty if no name is near.
 
     It is the same but for capital letters, or goes on behind ``name``, as speed_kmh behind speed,
     or is spelt about as it. ``alike`` is the least likeness, from 0 to 1.

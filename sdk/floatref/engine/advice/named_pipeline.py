@@ -37,7 +37,7 @@ def lost_at_stops(
 
     It names them, the slow travel, and the pipeline that measures there. The vehicle's places are
     those that its screening has found. Where the run is too near to its ends for any
-    pipeline, nothing is said.
+    pipeline, there is no line.
     """
     profile = result.profile
     if known[profile.pipeline].through_stops is not False:
