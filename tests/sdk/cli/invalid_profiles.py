@@ -17,6 +17,8 @@ from hypothesis import strategies as st
 from floatref import Profile, ProfileTrack, write_profile
 from floatref.cli.main import main
 
+Span = tuple[int, int]
+"""First point and number of points that are not valid."""
 COUNT = 320
 SPANS = st.lists(st.tuples(st.integers(0, COUNT - 1), st.integers(1, 200)), max_size=2)
 EXPLAINED = "* not all points are valid"
@@ -36,7 +38,7 @@ class Drawn(NamedTuple):
         return not all(track.valid.all() for track in self.bad.tracks)
 
 
-def profile(seed: int, spans: list[list[tuple[int, int]]], wrong: bool) -> Profile:
+def profile(seed: int, spans: list[list[Span]], wrong: bool) -> Profile:
     rng = np.random.default_rng(seed)
     tracks = []
     for name, lost in zip(("left", "right"), spans, strict=True):
@@ -50,7 +52,7 @@ def profile(seed: int, spans: list[list[tuple[int, int]]], wrong: bool) -> Profi
 
 
 @contextmanager
-def drawn(seed: int, left: list[tuple[int, int]], right: list[tuple[int, int]]) -> Iterator[Drawn]:
+def drawn(seed: int, left: list[Span], right: list[Span]) -> Iterator[Drawn]:
     with TemporaryDirectory() as name:
         made = Drawn(Path(name), *(profile(seed, [left, right], wrong) for wrong in (False, True)))
         write_profile(made.good, made.folder / "good")

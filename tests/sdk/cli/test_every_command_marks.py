@@ -17,7 +17,7 @@ from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
-from tests.sdk.cli.invalid_profiles import EXPLAINED, SPANS, Drawn, drawn, hold, printed
+from tests.sdk.cli.invalid_profiles import EXPLAINED, SPANS, Drawn, Span, drawn, hold, printed
 
 from floatref import read_profile
 from floatref.batch.jobs.job import Job
@@ -161,7 +161,7 @@ def test_its_figures_have_a_mark(command: str) -> None:
 
     @settings(deadline=None, max_examples=3)
     @given(st.integers(0, 2**32 - 1), SPANS, SPANS)
-    def law(seed: int, left: list[tuple[int, int]], right: list[tuple[int, int]]) -> None:
+    def law(seed: int, left: list[Span], right: list[Span]) -> None:
         with drawn(seed, left, right) as made:
             check(made)
 
@@ -183,9 +183,7 @@ def test_a_command_that_draws_states_how_it_marks_what_is_not_valid(command: str
 
 @pytest.mark.parametrize("command", [name for name, show in PICTURES.items() if callable(show)])
 @pytest.mark.parametrize("lost", [[], [(150, 60)]])
-def test_its_picture_is_shaded_where_points_are_not_valid(
-    command: str, lost: list[tuple[int, int]]
-) -> None:
+def test_its_picture_is_shaded_where_points_are_not_valid(command: str, lost: list[Span]) -> None:
     with drawn(1, lost, lost) as made:
         axes = picture_of(PICTURES[command], made).axes
     assert [bool(ax.collections) for ax in axes] == [bool(lost)] * len(axes)
