@@ -5,8 +5,12 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from floatref.engine.advice.named_pipeline import lost_at_stops, other_for_channels
-from floatref.engine.choosing import AUTO, BEST, Choice, choices_for
+from floatref.engine.advice.named_pipeline import (
+    lost_at_stops,
+    other_for_channels,
+    without_reference,
+)
+from floatref.engine.choosing import AUTO, BEST, Choice, choices_for, passed_over
 from floatref.engine.plugins import plugins
 from floatref.engine.run import Progress, Result, run
 from floatref.errors import InputError
@@ -33,6 +37,7 @@ def run_named_or_best(
         plugins().pipeline(pipeline)
         return _run_named(partial(run_one, pipeline), recording, known[pipeline], known)
     able = choices_for(recording, known)
+    lines += passed_over(recording, known)
     given = settings or {}
     # One that lacks a setting that is given is passed over; if all do, the best one says so.
     *better, last = [c for c in able if _has(known[c.pipeline], given)] or able
@@ -56,7 +61,7 @@ def _run_named(
         result = run_it()
     except InputError as error:
         raise InputError(f"{error}{other_for_channels(recording, pipeline, known)}") from error
-    lines = lost_at_stops(recording, result, known)
+    lines = *lost_at_stops(recording, result, known), *without_reference(recording, pipeline, known)
     return replace(result, warnings=(*lines, *result.warnings))
 
 

@@ -1,7 +1,8 @@
 """`auto`: the pipeline that measures most of what a recording holds, and why it is that one.
 
 The order is that of docs/families.md: which pipeline bears most, of those
-whose sensors were recorded. A pipeline for which a channel is absent is not among the choices.
+whose sensors were recorded. A pipeline for which a channel is absent, or whose reference is of no
+use, is not among the choices.
 """
 
 from collections.abc import Iterator, Mapping
@@ -10,6 +11,7 @@ from dataclasses import dataclass
 from floatref.builtin_pipelines.signal_flows import NEEDS
 from floatref.errors import InputError
 from floatref.interfaces.pipeline import Pipeline
+from floatref.screening.gnss_readings import fixed_readings
 from floatref.values.needs import nominal_needs
 from floatref.values.recording import Recording
 
@@ -50,8 +52,28 @@ def choices_for(recording: Recording, known: Mapping[str, Pipeline]) -> tuple[Ch
 def usable(recording: Recording, known: Mapping[str, Pipeline]) -> Iterator[Choice]:
     """Yield the pipelines of `choices_for`; it is empty where no pipeline can be taken."""
     for name, reason in BEST:
-        if name in known and has_channels(recording, known[name]):
+        able = name in known and has_channels(recording, known[name])
+        if able and not lost_reference(recording, known[name]):
             yield Choice(name, reason)
+
+
+def passed_over(recording: Recording, known: Mapping[str, Pipeline]) -> Iterator[str]:
+    """Yield a line for each pipeline of `BEST` that is no choice for its reference alone."""
+    for name, _ in BEST:
+        if name in known and has_channels(recording, known[name]):
+            lost = lost_reference(recording, known[name])
+            if lost:
+                yield f"pipeline {name}: not taken; {lost}; check the corrections of the receiver"
+
+
+def lost_reference(recording: Recording, pipeline: Pipeline) -> str:
+    """Return why the GNSS heights that ``pipeline`` reads are of no use, or "" if they are.
+
+    ``recording`` has all channels of ``pipeline``.
+    """
+    if not pipeline.readings or fixed_readings(recording).any():
+        return ""
+    return "no reading of gnss_height is RTK fixed"
 
 
 def has_channels(recording: Recording, pipeline: Pipeline) -> bool:

@@ -6,6 +6,7 @@ No combination makes it ask for an absent channel while another pipeline needs n
 import warnings
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -13,7 +14,8 @@ from hypothesis import strategies as st
 import floatref
 from floatref import InputError, Recording
 from floatref.builtin_pipelines.signal_flows import NEEDS
-from floatref.engine.choosing import BEST, choices_for
+from floatref.engine.automatic import run_named_or_best
+from floatref.engine.choosing import BEST, choices_for, passed_over
 from floatref.engine.plugins import plugins
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
@@ -115,3 +117,36 @@ def test_the_next_one_is_taken(whole: Recording, gone: tuple[str, ...], taken: s
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", floatref.FloatrefWarning)
         assert floatref.process(without(whole, absent)).pipeline == taken
+
+
+@pytest.fixture(scope="module")
+def unfixed(whole: Recording) -> Recording:
+    """Return the recording as of a receiver without corrections."""
+    channels = tuple(
+        replace(c, values=np.ones(c.values.size)) if c.id.name == "gnss_quality" else c
+        for c in whole.channels
+    )
+    return replace(whole, channels=channels)
+
+
+@pytest.mark.slow
+def test_a_reference_that_is_of_no_use_is_not_needed(unfixed: Recording) -> None:
+    result = run_named_or_best(unfixed)
+    assert result.profile.pipeline == "road-prior-smoother"
+    line = "pipeline kalman-smoother-reflection: not taken; no reading of gnss_height is RTK fixed"
+    assert result.warnings[0].startswith(line)
+
+
+@pytest.mark.slow
+def test_one_that_is_named_says_which_needs_no_gnss(unfixed: Recording) -> None:
+    lines = run_named_or_best(unfixed, "kalman-smoother-reflection").warnings
+    assert lines[0] == (
+        "kalman-smoother-reflection has no reference: no reading of gnss_height is RTK fixed; "
+        "road-prior-smoother needs no GNSS"
+    )
+
+
+def test_the_choice_is_the_next_one_without_a_fixed_reading(unfixed: Recording) -> None:
+    known = plugins().pipelines()
+    assert choices_for(unfixed, known)[0].pipeline == "road-prior-smoother"
+    assert len(list(passed_over(unfixed, known))) == 1

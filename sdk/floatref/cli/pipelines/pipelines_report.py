@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from floatref.engine.advice.by_sensors import pipelines_by_sensors
-from floatref.engine.choosing import missing_for, usable
+from floatref.engine.choosing import missing_for, passed_over, usable
 from floatref.engine.plugins import plugins
 from floatref.screening.travel import Travel
 
@@ -55,7 +55,7 @@ def recording_report(path: Path, read: "Source") -> dict[str, Any]:
             }
             for name, pipeline in known.items()
         ],
-        "warnings": [*read.warnings, *plugins().reports],
+        "warnings": [*read.warnings, *passed_over(recording, known), *plugins().reports],
     }
 
 

@@ -5,7 +5,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from floatref.engine.choosing import has_channels, usable
+from floatref.engine.choosing import has_channels, lost_reference, usable
 from floatref.engine.run import Result
 from floatref.engine.validity_and_sigma import Reach
 from floatref.interfaces.pipeline import Pipeline
@@ -28,6 +28,17 @@ def other_for_channels(
         return ""
     able = next(usable(recording, known), None)
     return f"; {able.pipeline} can be taken, with the channels of this recording" if able else ""
+
+
+def without_reference(
+    recording: Recording, pipeline: Pipeline, known: Mapping[str, Pipeline]
+) -> Iterator[str]:
+    """Yield one line if ``pipeline`` has no GNSS height to use, and which one needs no GNSS."""
+    able = next(usable(recording, known), None)
+    if able is not None and able.pipeline != pipeline.name:
+        lost = lost_reference(recording, pipeline)
+        if lost:
+            yield f"{pipeline.name} has no reference: {lost}; {able.pipeline} needs no GNSS"
 
 
 def lost_at_stops(
