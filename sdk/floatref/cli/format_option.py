@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from floatref.cli.choices import OneOf
 from floatref.engine.plugins import plugins
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ class FormatName(NameType):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return ``value`` if it is the name of a format."""
-        return str(click.Choice(self._names()).convert(value, param, ctx))
+        return str(OneOf(self._names()).convert(value, param, ctx))
 
     def _names(self) -> list[str]:
         recordings = plugins().recording_formats() if self._recordings else {}

@@ -1,31 +1,9 @@
-"""`floatref pipelines` and `floatref adapters`: lists of the available ones."""
+"""`floatref adapters`: the adapters and the formats of profile files."""
 
 import click
 
 from floatref.cli.printing import print_json, print_table
 from floatref.engine.plugins import plugins
-
-
-@click.command("pipelines")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def pipelines(as_json: bool) -> None:
-    """List the pipelines: their architecture, what they do, and their settings."""
-    known = plugins().pipelines().values()
-    if as_json:
-        items = [
-            {
-                "name": pipeline.name,
-                "architecture": pipeline.architecture,
-                "summary": pipeline.summary,
-                "settings": dict(pipeline.settings),
-            }
-            for pipeline in known
-        ]
-        print_json({"pipelines": items, "warnings": plugins().reports})
-        return
-    rows = [[pipeline.name, pipeline.architecture, pipeline.summary] for pipeline in known]
-    print_table("Pipelines", ("pipeline", "architecture", "what it does"), rows, numbers=False)
-    _warn()
 
 
 @click.command("adapters")
@@ -48,9 +26,5 @@ def adapters(as_json: bool) -> None:
     for title, found in (("Profile formats", formats), ("Recording formats", written)):
         rows = [[f.name, f.suffix or "–", f.summary] for f in found]
         print_table(title, ("format", "suffix", "what it is"), rows, numbers=False)
-    _warn()
-
-
-def _warn() -> None:
     for line in plugins().reports:
         click.echo(f"Warning: {line}", err=True)

@@ -21,7 +21,10 @@ COMMANDS = {
         "floatref.cli.convert:convert",
         "write a profile or a recording in another format",
     ),
-    "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
+    "pipelines": (
+        "floatref.cli.pipelines.command:pipelines",
+        "which pipeline for which sensors, and all of them",
+    ),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters and the profile formats"),
     "channels": (
         "floatref.cli.channels:channels",

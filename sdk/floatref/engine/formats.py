@@ -20,6 +20,7 @@ from floatref.interfaces.adapter import (
     RecordingDirectory,
 )
 from floatref.interfaces.profile_format import ProfileDirectory, ProfileFormat
+from floatref.values.display.similar_names import hint_at, suggest
 from floatref.values.native import NativeFile
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
@@ -55,7 +56,7 @@ def get_reader(name: str) -> Adapter:
     """Return the adapter called ``name``; InputError if it is unknown."""
     known = plugins().adapters()
     if name not in known:
-        raise InputError(f"adapter {name}: unknown; there are {', '.join(known)}")
+        raise InputError(f"adapter {name}: unknown; {suggest(name, known)}")
     return known[name]
 
 
@@ -193,7 +194,7 @@ def format_of(out: Path, name: str | None = None) -> ProfileFormat:
 def _choose(out: Path, name: str | None) -> ProfileFormat:
     known = plugins().profile_formats()
     if name is not None and name not in known:
-        raise InputError(f"format {name}: unknown; there are {', '.join(known)}")
+        raise InputError(f"format {name}: unknown; {suggest(name, known)}")
     if name is not None:
         return known[name]
     # A suffix has letters only: names of runs hold numbers, as in stop_0.20g.
@@ -204,10 +205,10 @@ def _choose(out: Path, name: str | None) -> ProfileFormat:
         raise InputError(f"{out}: suffix {suffix} is that of {both}; choose with --format")
     if not found:
         refuse_to_write(out)
-        suffixes = ", ".join(form.suffix for form in known.values() if form.suffix)
+        suffixes = [form.suffix for form in known.values() if form.suffix]
         raise InputError(
-            f"{out}: suffix {out.suffix} is no format; use {suffixes}, no suffix, or --format "
-            f"with one of {', '.join(known)}"
+            f"{out}: suffix {out.suffix} is no format; use {', '.join(suffixes)}, no suffix, or "
+            f"--format with one of {', '.join(known)}{hint_at(suffix, suffixes)}"
         )
     return found[0]
 

@@ -35,6 +35,7 @@ from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.interfaces.profile_format import ProfileFormat
 from floatref.interfaces.recording_format import RecordingFormat
 from floatref.stages.protocol import Stage
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile
 
 T = TypeVar("T")
@@ -136,7 +137,7 @@ class Plugins:
             for line in unknown_scopes(self._manager, known):
                 self._report(line)
         if name not in known:
-            raise InputError(f"pipeline {name}: unknown; there are {', '.join(known)}")
+            raise InputError(f"pipeline {name}: unknown; {suggest(name, known)}")
         return known[name]
 
     def ask(self, context: Context) -> Sequence[Stage]:

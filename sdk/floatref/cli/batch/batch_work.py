@@ -25,7 +25,7 @@ from floatref.batch.results.totals import Tally
 from floatref.batch.work.cluster import connect, count_workers
 from floatref.batch.work.running import run_jobs
 from floatref.batch.work.worker_patience import patient, silence
-from floatref.cli.batch.batch_report import progress, tell_remarks
+from floatref.cli.batch.batch_report import progress, tell_remarks, tell_warnings
 
 
 @dataclass(frozen=True)
@@ -69,13 +69,15 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
         wall_s = monotonic() - tally.began_s
         gone = not_given(work.out, found.jobs)
         tell_remarks(found.passed_over, gone)
-        measures = work.defaults.measures
-        write_summary(returned.of(found.jobs), work.out, measures)
+        tell_warnings(tally)
+        write_summary(returned.of(found.jobs), work.out, work.defaults.measures)
         finished = Finished(wall_s, workers, found.passed_over, gone)
         document = batch_document(work.command, tally, finished)
         write_batch_document(document, work.out)
         for layer in work.gis:
-            count = write_segment_layer(returned.of(found.jobs), measures, layer, overwrite=True)
+            count = write_segment_layer(
+                returned.of(found.jobs), work.defaults.measures, layer, overwrite=True
+            )
             click.echo(f"{layer}: {count}", err=True)
         if work.plot is not None:
             _draw(work.out, work.plot)
