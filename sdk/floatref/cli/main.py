@@ -17,6 +17,8 @@ COMMANDS = {
         "a straightedge and a profilograph on a profile",
     ),
     "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
+    "view": ("floatref.cli.look.view:view", "a page for the browser: zoom, table, map"),
+    "plot": ("floatref.cli.look.plot:plot", "a picture of a profile or of raw channels"),
     "convert": (
         "floatref.cli.convert:convert",
         "write a profile or a recording in another format",

@@ -148,6 +148,11 @@ def profile_of(path: Path) -> Profile:
     return _read(found[0], path)
 
 
+def is_profile(path: Path) -> bool:
+    """Return whether any format of profiles recognises ``path``."""
+    return any(_recognise_profile(form, path) for form in plugins().profile_formats().values())
+
+
 def failure(name: str, path: Path, error: Exception) -> str:
     """Return one line on an ``error`` that the format called ``name`` raised."""
     reason = f"{type(error).__name__}: {' '.join(str(error).split())}"

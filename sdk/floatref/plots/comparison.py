@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from floatref.errors import InputError
 from floatref.measures import agreement, high_pass, on_common_grid
 from floatref.measures.valid_iri import CommonIri, iri_of_common_points
+from floatref.measures.valid_roughness import roughness_of
 from floatref.plots.figure import (
     COLOURS,
     REFERENCE_COLOUR,
@@ -21,7 +22,7 @@ from floatref.plots.figure import (
     shade,
     title,
 )
-from floatref.plots.validity_marks import draw_marked, iri_text, roughness_of
+from floatref.plots.validity_marks import draw_marked, iri_text
 from floatref.values.profile import Profile, ProfileTrack
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from floatref.measures.roughness.gaps import check_heights
+from floatref.measures.valid_roughness import roughness_of
 from floatref.plots.figure import (
     COLOURS,
     check_suffix,
@@ -20,7 +21,7 @@ from floatref.plots.figure import (
     shade,
     title,
 )
-from floatref.plots.validity_marks import draw_marked, iri_labels, roughness_of
+from floatref.plots.validity_marks import draw_marked, iri_labels
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 

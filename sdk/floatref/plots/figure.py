@@ -11,7 +11,6 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.files.atomic import replace_file
-from floatref.measures import iri, short_interval_roughness
 from floatref.values.arrays import BoolArray, FloatArray
 
 if TYPE_CHECKING:
@@ -155,11 +154,3 @@ def in_readable_unit(*elevations: FloatArray) -> tuple[float, str]:
     """Return the factor from m and the unit in which ``elevations`` are drawn: mm or m."""
     spans = [np.nanmax(z) - np.nanmin(z) for z in elevations if np.isfinite(z).any()]
     return (1000.0, "mm") if max(spans, default=0.0) < 0.5 else (1.0, "m")
-
-
-def roughness(elevation: FloatArray, interval_m: float) -> tuple[FloatArray, float]:
-    """Return short-interval roughness profile and IRI in m/km; NaN for a profile without them."""
-    try:
-        return short_interval_roughness(elevation, interval_m), iri(elevation, interval_m)
-    except InputError:
-        return np.full(max(elevation.size - 1, 0), np.nan), float("nan")

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures.valid_iri import profile_iri, valid_stretches
-from floatref.plots.figure import label_of, line, roughness
+from floatref.measures.valid_iri import profile_iri
+from floatref.plots.figure import label_of, line
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.display.short_text import percent
-from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.profile import Profile
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,20 +31,6 @@ def draw_marked(
     beside[:-1] |= ~valid[1:]
     rest = np.where(beside, y, np.nan)
     line(ax, x, rest, color=colour, alpha=PALE, linestyle=":")
-
-
-def roughness_of(track: ProfileTrack, interval_m: float) -> tuple[FloatArray, BoolArray]:
-    """Return the roughness in m/km of every interval, and which lie in a stretch that counts.
-
-    Each of these stretches is measured as a profile of its own.
-    """
-    trace, _ = roughness(track.elevation, interval_m)
-    counted = np.zeros(trace.size, dtype=np.bool_)
-    for stretch in valid_stretches(track.valid, interval_m):
-        inside = slice(stretch.start, stretch.stop - 1)
-        trace[inside], _ = roughness(track.elevation[stretch], interval_m)
-        counted[inside] = True
-    return trace, counted
 
 
 def iri_text(valid_m_per_km: float, counted_share: float) -> str:

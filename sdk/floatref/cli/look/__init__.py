@@ -1,0 +1,1 @@
+"""`floatref view` and `floatref plot`: what a profile or a recording looks like."""
