@@ -15,17 +15,18 @@ def roughness_of(track: ProfileTrack, interval_m: float) -> tuple[FloatArray, Bo
     Each of these stretches is measured as a profile of its own. NaN for a profile that is too short
     for the car, or whose interval is too long for it.
     """
-    trace = _trace(track.elevation, interval_m)
+    trace = np.empty(track.elevation.size - 1)
     counted = np.zeros(trace.size, dtype=np.bool_)
+    _trace(track.elevation, interval_m, trace)
     for stretch in valid_stretches(track.valid, interval_m):
         inside = slice(stretch.start, stretch.stop - 1)
-        trace[inside] = _trace(track.elevation[stretch], interval_m)
+        _trace(track.elevation[stretch], interval_m, trace[inside])
         counted[inside] = True
     return trace, counted
 
 
-def _trace(elevation: FloatArray, interval_m: float) -> FloatArray:
+def _trace(elevation: FloatArray, interval_m: float, out: FloatArray) -> None:
     try:
-        return short_interval_roughness(elevation, interval_m)
+        short_interval_roughness(elevation, interval_m, out=out)
     except InputError:
-        return np.full(max(elevation.size - 1, 0), np.nan)
+        out.fill(np.nan)

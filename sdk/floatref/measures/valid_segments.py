@@ -23,7 +23,7 @@ from floatref.measures.roughness.roughness_index import (
     segment_edges,
 )
 from floatref.measures.valid_iri import sums_of_valid, valid_stretches
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import FloatArray, IndexArray, release
 from floatref.values.profile import ProfileTrack
 
 
@@ -104,8 +104,8 @@ def trace_of_valid(
     """
     trace = np.full(track.valid.size - 1, np.nan)
     for stretch in valid_stretches(track.valid, interval_m, settings):
-        part = iri_trace(track.elevation[stretch], interval_m, settings)
-        trace[stretch.start : stretch.stop - 1] = part
+        inside = trace[stretch.start : stretch.stop - 1]
+        iri_trace(track.elevation[stretch], interval_m, settings, out=inside)
     return trace
 
 
@@ -120,8 +120,11 @@ def _intervals(
     if track.sigma is None:
         return [UNKNOWN] * (edges.size - 1)
     trace = trace_of_valid(track, interval_m, settings)
+    release(track.elevation)
     cuts = zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True)
-    return [
+    found = [
         iri_interval(trace[a:b], track.sigma[a:b], interval_m, settings, correlation_m)
         for a, b in cuts
     ]
+    release(track.sigma)
+    return found

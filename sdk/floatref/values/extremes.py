@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.scanning import CHUNK, chunks
 
 COARSER = 16
@@ -30,18 +30,30 @@ class Extremes:
     missing: BoolArray
 
     @classmethod
-    def of(cls, values: FloatArray, samples: int = 1, used: BoolArray | None = None) -> "Extremes":
+    def of(
+        cls,
+        values: FloatArray,
+        samples: int = 1,
+        used: BoolArray | None = None,
+        spread: FloatArray | None = None,
+    ) -> "Extremes":
         """Return the extremes of ``values``, shape (N,); NaN and what is not ``used`` has no value.
 
-        Samples of a mapped file are read in pieces and released.
+        With ``spread``, shape (N,), the lowest are of values − spread, the highest of values +
+        spread. Samples of a mapped file are read in pieces and released. Raises InputError unless
+        ``samples`` is a power of two up to `CHUNK`.
         """
         if not 1 <= samples <= CHUNK or CHUNK % samples:
             raise InputError(f"{samples} samples in a bin; give a power of two up to {CHUNK}")
         parts = []
         for first, chunk in chunks(values):
+            inside = slice(first, first + chunk.size)
             if used is not None:
-                chunk = np.where(used[first : first + chunk.size], chunk, np.nan)
-            parts.append(_reduce(chunk, samples))
+                chunk = np.where(used[inside], chunk, np.nan)
+            off = 0.0 if spread is None else spread[inside]
+            parts.append(_reduce(chunk - off, chunk + off, samples))
+            if spread is not None:
+                release(spread)
         low, high, missing = (np.concatenate(part) for part in zip(*parts, strict=True))
         return cls(samples, low, high, missing)
 
@@ -71,11 +83,16 @@ def samples_per_bin(count: int, most_bins: int) -> int:
     return samples
 
 
-def _reduce(chunk: FloatArray, samples: int) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Return low, high and missing of every ``samples`` of ``chunk``."""
-    missing = np.isnan(chunk)
+def _reduce(
+    low: FloatArray, high: FloatArray, samples: int
+) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Return the lowest, the highest, and whether any is missing, of every ``samples``."""
+    missing = np.isnan(low)
     if samples == 1:
-        return chunk.copy(), chunk.copy(), missing
-    starts = np.arange(0, chunk.size, samples)
-    low, high = np.fmin.reduceat(chunk, starts), np.fmax.reduceat(chunk, starts)
-    return low, high, np.logical_or.reduceat(missing, starts)
+        return low, high, missing
+    starts = np.arange(0, low.size, samples)
+    return (
+        np.fmin.reduceat(low, starts),
+        np.fmax.reduceat(high, starts),
+        np.logical_or.reduceat(missing, starts),
+    )

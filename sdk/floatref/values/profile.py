@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
-from floatref.values.arrays import BoolArray, FloatArray, frozen
+from floatref.values.arrays import BoolArray, FloatArray, frozen, release
 from floatref.values.display.html_table import html_table
 from floatref.values.display.iri_table import ProfileIri
 from floatref.values.display.short_text import (
@@ -76,6 +76,10 @@ class ProfileTrack:
             raise InputError(f"track {self.name}: a point without elevation is marked valid")
         if self.sigma is not None and (self.sigma < 0).any():
             raise InputError(f"track {self.name}: sigma is below zero; give a standard deviation")
+        # Looking at every point has read a mapped file into memory.
+        release(self.elevation)
+        if self.sigma is not None:
+            release(self.sigma)
 
     def __repr__(self) -> str:
         """Return name, points and validity on one line."""

@@ -110,9 +110,7 @@ def _parts(line: Line, samples: int) -> dict[str, Extremes]:
         if np.isfinite(others.low).any():
             parts["others"] = others
     if line.sigma is not None:
-        lower = Extremes.of(line.values - line.sigma, samples, line.valid)
-        upper = Extremes.of(line.values + line.sigma, samples, line.valid)
-        parts["sigma"] = Extremes(samples, lower.low, upper.high, lower.missing)
+        parts["sigma"] = Extremes.of(line.values, samples, line.valid, line.sigma)
     return parts
 
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
+from floatref.values.arrays import release
 from floatref.values.display.shown_units import kind_of_length
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
@@ -94,6 +95,7 @@ def _panels_of_paths(
             segments = run_segments(run, track, options.segment_m)
             written.append(_write_path(page, run, track, bins))
             written[-1]["means"] = write_line(page, mean_line(run, track, segments[1:]), bins)
+        release(track.elevation)
         rows += [iri_row(run.name, track.name, s, not k) for k, s in enumerate(segments)]
     elevation, roughness, means = (
         [lines[name] for lines in written] for name in ("elevation", "roughness", "means")

@@ -31,6 +31,7 @@ import numpy as np
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.roughness_index import STANDARD, iri_trace
 from floatref.values.arrays import FloatArray
+from floatref.values.scanning import CHUNK
 
 LONGEST_WAVE_M = 30.0
 """Wavelength λ in m: the car feels waves of 0.4 to 30 m."""
@@ -65,17 +66,14 @@ def iri_interval(
     ``sigma`` the 1-σ in m at the start of each, both of shape (n,). Unknown without an interval
     that counts, and where ``sigma`` of one of them is not finite.
     """
-    counted = np.isfinite(trace)
-    count = int(np.count_nonzero(counted))
-    if not count or not np.isfinite(sigma[counted]).all():
-        return UNKNOWN
-    output = np.where(counted, trace, 0.0)
-    spread = np.where(counted, sigma, 0.0)
     covariance = output_covariance(interval_m, settings, correlation_m)
-    value = float(np.abs(output).sum()) / count
-    half = NORMAL_95 * _standard_error(np.sign(output) * spread, covariance, count)
-    squares = float(np.square(output).sum())
-    error = float(covariance[0] * np.square(spread).sum())
+    sums = _sums_of(trace, sigma, covariance)
+    count, squares = int(sums.counted), sums.squares
+    if not count or not np.isfinite(sums.variance):
+        return UNKNOWN
+    value = sums.rectified / count
+    half = NORMAL_95 * float(np.sqrt(max(sums.signed, 0.0))) / count
+    error = float(covariance[0] * sums.variance)
     left = max(0.0, 1.0 - error / squares) if squares > 0.0 else float(error == 0.0)
     return Interval(max(0.0, value * float(np.sqrt(left)) - half), value + half)
 
@@ -113,11 +111,55 @@ def _memory(interval_m: float) -> int:
     return round(MEMORY_M / interval_m)
 
 
-def _standard_error(signed: FloatArray, covariance: FloatArray, count: int) -> float:
-    """Return s of (3) in m/km; ``signed`` is sgn(y_k) σ_k in m, 0 where nothing counts."""
+class _Sums(NamedTuple):
+    """Sums over the intervals that count.
+
+    Attributes:
+        counted: their number, n.
+        rectified, squares: of the output, Σ|y_k| in m/km and Σy_k².
+        variance: Σσ_k² in m²; NaN where a 1-σ is not finite.
+        signed: the double sum of (3) in (m/km)².
+    """
+
+    counted: float
+    rectified: float
+    squares: float
+    variance: float
+    signed: float
+
+
+def _sums_of(trace: FloatArray, sigma: FloatArray, covariance: FloatArray) -> _Sums:
+    """Return the sums over a trace and its 1-σ, in pieces, so that a long one takes no memory."""
+    totals = np.zeros(len(_Sums._fields))
+    for first in range(0, trace.size, CHUNK):
+        inside = slice(first, first + CHUNK)
+        output, spread = _counted(trace[inside], sigma[inside])
+        before = max(first - covariance.size + 1, 0)
+        beside = slice(before, min(first + CHUNK + covariance.size - 1, trace.size))
+        around, widths = _counted(trace[beside], sigma[beside])
+        signed = _double_sum(np.sign(around) * widths, first - before, output.size, covariance)
+        counted = np.count_nonzero(np.isfinite(trace[inside]))
+        squares = np.square(output).sum(), np.square(spread).sum()
+        totals += np.array([counted, np.abs(output).sum(), *squares, signed])
+    return _Sums(*totals.tolist())
+
+
+def _counted(trace: FloatArray, sigma: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return output in m/km and 1-σ in m, 0 where an interval does not count."""
+    counted = np.isfinite(trace)
+    spread = np.where(np.isfinite(sigma), sigma, np.nan)
+    return np.where(counted, trace, 0.0), np.where(counted, spread, 0.0)
+
+
+def _double_sum(signed: FloatArray, first: int, count: int, covariance: FloatArray) -> float:
+    """Return the part of the double sum of (3) in which j is one of ``count`` from ``first`` on.
+
+    ``signed`` is sgn(y_k) σ_k in m, 0 where nothing counts.
+    """
     from scipy.signal import oaconvolve
 
     lags = min(covariance.size, signed.size)
     both = np.concatenate((covariance[lags - 1 : 0 : -1], covariance[:lags]))
-    square = float(signed @ oaconvolve(signed, both, mode="same"))
-    return float(np.sqrt(max(square, 0.0))) / count
+    spread = oaconvolve(signed, both, mode="same")
+    inside = slice(first, first + count)
+    return float(signed[inside] @ spread[inside])

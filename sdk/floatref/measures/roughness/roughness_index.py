@@ -41,18 +41,20 @@ def iri_trace(
     interval_m: float,
     settings: IriSettings = STANDARD,
     car: QuarterCar = GOLDEN_CAR,
+    out: FloatArray | None = None,
 ) -> FloatArray:
     """Return the signed output of steps 1 to 3 in m/km, one value fewer than ``elevation``.
 
     Value k is the output at the end of the interval from point k to point k + 1; NaN before the
     first and after the last measured point. With another ``car`` it is the trace of another index,
-    as of the Ride Number. Raises InputError for a profile shorter than the start length. Source:
-    steps 1 to 3 of section 2.1.1.
+    as of the Ride Number. With ``out`` it is written there. Raises InputError for a profile shorter
+    than the start length. Source: steps 1 to 3 of section 2.1.1.
     """
     from floatref.measures.roughness.golden_car import car_response
 
     run = _Run.of(elevation, interval_m, settings, car)
-    trace = np.full(max(np.size(elevation) - 1, 0), np.nan)
+    trace = np.empty(max(np.size(elevation) - 1, 0)) if out is None else out
+    trace[: run.first], trace[run.first + run.elevation.size - 1 :] = np.nan, np.nan
     measured = trace[run.first : run.first + run.elevation.size - 1]
     car_response(run.elevation, run.window, run.start_slope, 1.0 / interval_m, run.modes, measured)
     return trace

@@ -11,6 +11,7 @@ from floatref.measures.roughness.gaps import check_elevation
 from floatref.measures.roughness.iri_settings import IriSettings, intervals_in
 from floatref.measures.roughness.roughness_index import STANDARD, iri_trace
 from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.scanning import CHUNK
 
 BASE_M = 7.62
 """Base length of the short-interval roughness profile in m (25 ft)."""
@@ -44,16 +45,19 @@ def short_interval_roughness(
     interval_m: float,
     base_m: float = BASE_M,
     settings: IriSettings = STANDARD,
+    out: FloatArray | None = None,
 ) -> FloatArray:
     """Return the moving average of the rectified IRI output in m/km, over ``base_m`` in m.
 
     One value fewer than ``elevation``: value k belongs to the interval from point k to k + 1 and
     is the mean of n = round(base/interval) values from k − n//2 on, of those there are near the
-    ends. NaN before the first and after the last measured point. Source: section 2.1.3.
+    ends. NaN before the first and after the last measured point. With ``out`` it is written there.
+    Source: section 2.1.3.
     """
     if not (np.isfinite(base_m) and base_m > 0):
         raise InputError(f"base length is {base_m} m; it must be above zero")
-    rectified = np.abs(iri_trace(elevation, interval_m, settings))
+    trace = iri_trace(elevation, interval_m, settings, out=out)
+    rectified = np.abs(trace, out=trace)
     return _moving_average(rectified, intervals_in(base_m, interval_m))
 
 
@@ -115,15 +119,30 @@ def m_per_km(in_per_mi: float) -> float:
 
 
 def _moving_average(values: FloatArray, window: int) -> FloatArray:
-    """Return the mean of ``window`` values from k − window//2 on, of the finite ones there are."""
+    """Put the mean of ``window`` values from k − window//2 on, of the finite ones there are, at k.
+
+    It goes in pieces over ``values``, which it overwrites and returns: a long profile then takes no
+    more memory than they do.
+    """
+    before = values[:0]
+    for first in range(0, values.size, CHUNK):
+        end = min(first + CHUNK, values.size)
+        part = np.concatenate((before, values[first : end + window]))
+        values[first:end] = _means_of(part, before.size, end - first, window)
+        overwritten = part[: before.size + end - first]
+        before = overwritten[max(0, overwritten.size - window // 2) :]
+    return values
+
+
+def _means_of(values: FloatArray, before: int, count: int, window: int) -> FloatArray:
+    """Return ``count`` means from index ``before`` on of ``values``, which go on where they do."""
     finite = np.isfinite(values)
     sums = np.concatenate(([0.0], np.cumsum(np.where(finite, values, 0.0))))
     counts = np.concatenate(([0], np.cumsum(finite)))
-    first = np.arange(values.size) - window // 2
+    first = np.arange(before, before + count) - window // 2
     ends = np.clip(first + window, 0, values.size)
     first = np.clip(first, 0, None)
-    count = counts[ends] - counts[first]
-    means = np.divide(
-        sums[ends] - sums[first], count, out=np.full(values.size, np.nan), where=finite
-    )
+    found = counts[ends] - counts[first]
+    known = finite[before : before + count]
+    means = np.divide(sums[ends] - sums[first], found, out=np.full(count, np.nan), where=known)
     return np.asarray(np.maximum(means, 0.0))
