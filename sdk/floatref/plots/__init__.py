@@ -3,7 +3,7 @@
 from floatref.plots.allan_deviation import draw_allan
 from floatref.plots.comparison import draw_comparison
 from floatref.plots.elevation import draw_profile
-from floatref.plots.figure import check_drawing
+from floatref.plots.figure import check_drawing, save
 from floatref.plots.innovation_picture import draw_innovations
 from floatref.plots.network import SUMMARY_COLUMNS, draw_summary
 from floatref.plots.sensitivity import draw_sensitivity
@@ -17,4 +17,5 @@ __all__ = [
     "draw_profile",
     "draw_sensitivity",
     "draw_summary",
+    "save",
 ]

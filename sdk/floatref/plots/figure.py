@@ -5,13 +5,13 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 from floatref.errors import InputError
 from floatref.files.atomic import replace_file
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -112,6 +112,13 @@ REFERENCE_COLOUR = "0.25"
 SHADE = "#F0C9C0"
 
 
+class Places(Protocol):
+    """The place of every point; those of a long line are never in memory together."""
+
+    def __getitem__(self, index: IndexArray, /) -> FloatArray:
+        """Return the places of the points ``index``."""
+
+
 def thin(x: FloatArray, y: FloatArray, bins: int = BINS) -> tuple[FloatArray, FloatArray]:
     """Return points that draw the same line: of each stretch the lowest and the highest value.
 
@@ -130,17 +137,18 @@ def line(ax: Axes, x: FloatArray, y: FloatArray, **style: Any) -> None:
     ax.plot(*thin(x, y), **{"linewidth": 0.9, **style})
 
 
-def shade(ax: Axes, x: FloatArray, invalid: BoolArray, label: str | None = None) -> None:
+def shade(ax: Axes, x: Places, invalid: BoolArray, label: str | None = None) -> None:
     """Shade the stretches of ``x`` where ``invalid`` is true, if any."""
     if not invalid.any():
         return
-    places, share = thin(x, invalid.astype(np.float64))
-    # A stretch with one invalid point has the highest value 1; its outline is wide enough to see.
+    starts = np.arange(0, invalid.size, max(1, -(-invalid.size // BINS)))
+    lasts = np.append(starts[1:], invalid.size) - 1
+    # A stretch with one invalid point is shaded; its outline is wide enough to see.
     ax.fill_between(
-        places,
+        (x[starts] + x[lasts]) / 2.0,
         0.0,
         1.0,
-        where=share > 0,
+        where=np.logical_or.reduceat(invalid, starts).tolist(),
         step="mid",
         color=SHADE,
         linewidth=1.0,

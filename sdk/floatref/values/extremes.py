@@ -45,7 +45,7 @@ class Extremes:
         """
         if not 1 <= samples <= CHUNK or CHUNK % samples:
             raise InputError(f"{samples} samples in a bin; give a power of two up to {CHUNK}")
-        parts = []
+        parts = [(values[:0], values[:0], np.zeros(0, np.bool_))]
         for first, chunk in chunks(values):
             inside = slice(first, first + chunk.size)
             if used is not None:

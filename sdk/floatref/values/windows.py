@@ -92,14 +92,14 @@ def choose_channels(recording: Recording, names: Sequence[str]) -> tuple[Channel
     return tuple(c for c in recording.channels if not names or {c.id.name, str(c.id)} & set(names))
 
 
-def cut_recording(recording: Recording, window: Window) -> Recording:
-    """Return the part of ``recording`` in ``window``, in s after its first sample.
+def cut_recording(recording: Recording, window: Window, origin_s: float) -> Recording:
+    """Return the part of ``recording`` in ``window``, whose seconds count from ``origin_s``.
 
     A channel without a sample there is left out. Raises InputError if every channel is.
     """
     if window.is_whole:
         return recording
-    found = tuple(_cut_channels(recording, window))
+    found = tuple(_cut_channels(recording, window, origin_s))
     if not found:
         raise InputError(
             f"{window}: holds no sample; the recording lasts {recording.duration_s:.10g} s"
@@ -107,8 +107,7 @@ def cut_recording(recording: Recording, window: Window) -> Recording:
     return replace(recording, channels=found)
 
 
-def _cut_channels(recording: Recording, window: Window) -> Iterator[Channel]:
-    origin_s = first_time(recording)
+def _cut_channels(recording: Recording, window: Window, origin_s: float) -> Iterator[Channel]:
     stamped: dict[tuple[int, int, int], StampedClock] = {}
     for channel in recording.channels:
         part = _samples_of(channel, window, origin_s)

@@ -29,7 +29,7 @@ def write_recording_page(
     """
     origin_s = first_time(recording)
     with name_errors(name):
-        cut = cut_recording(recording, options.window)
+        cut = cut_recording(recording, options.window, origin_s)
         drawn = replace(cut, channels=choose_channels(cut, channels))
     title = options.title or name
     with new_page(path, title, options.overwrite) as page:

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
-from floatref.plots.figure import in_readable_unit, roughness, shade, thin
+from floatref.plots.figure import in_readable_unit, shade, thin
 
 FEW = settings(deadline=None, max_examples=25)
 
@@ -54,10 +54,3 @@ def test_small_elevations_are_drawn_in_mm() -> None:
     assert in_readable_unit(np.array([0.01, -0.02, np.nan])) == (1000.0, "mm")
     assert in_readable_unit(np.array([0.0, 0.01]), np.array([580.0, 583.0])) == (1.0, "m")
     assert in_readable_unit(np.full(3, np.nan)) == (1000.0, "mm")
-
-
-def test_profile_too_short_for_an_iri_has_no_roughness() -> None:
-    trace, value = roughness(np.zeros(20), 0.1)
-    assert trace.shape == (19,)
-    assert np.isnan(trace).all()
-    assert np.isnan(value)
