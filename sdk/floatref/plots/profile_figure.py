@@ -71,8 +71,7 @@ def _draw_elevation(ax: Axes, profile: Profile, units: str) -> None:
         lines.append(Marked.of(x, track.elevation, track.valid))
         release(track.elevation)
     spans = [line.span for line in lines if line.span]
-    kind = kind_of_length(max((high - low for low, high in spans), default=0.0))
-    unit = SHOWN[kind][units]
+    unit = SHOWN[kind_of_length(spans)][units]
     for track, line, colour in zip(profile.tracks, lines, _colours(profile), strict=True):
         line.draw(ax, colour, label_of(track.name), unit.factor)
     _limit(ax, spans, unit)
@@ -83,6 +82,8 @@ def _draw_roughness(ax: Axes, profile: Profile, units: str) -> None:
     x = _places(profile, SHOWN["distance"][units], 0.5)
     unit, spans = SHOWN["roughness"][units], []
     labels = iri_labels(profile, unit)
+    for track in profile.tracks:
+        release(track.elevation)
     for track, colour, label in zip(profile.tracks, _colours(profile), labels, strict=True):
         line = Marked.of(x, *roughness_of(track, profile.interval_m))
         line.draw(ax, colour, label, unit.factor)

@@ -60,6 +60,6 @@ def _unit_of(channel: Channel, lines: list[Reduced], units: str | None) -> tuple
     """Return the factor from the SI unit of ``channel``, and the unit that is shown."""
     if units is None:
         return 1.0, channel.unit
-    ranges = [line.span[1] - line.span[0] for line in lines if line.span]
-    shown = SHOWN[kind_of_channel(channel.id.name, max(ranges, default=0.0))][units]
+    spans = [line.span for line in lines if line.span]
+    shown = SHOWN[kind_of_channel(channel.id.name, spans)][units]
     return shown.factor, shown.text

@@ -7,10 +7,13 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref.values.arrays import BoolArray, FloatArray, release
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 
 CHUNK = 1 << 18
 """Samples in one piece (2 MiB)."""
+
+TAKEN = 1 << 10
+"""Samples taken at a time: each may bring 64 KiB of its file into memory."""
 
 S = TypeVar("S", bound=np.generic)
 
@@ -24,6 +27,15 @@ def chunks(values: NDArray[S], overlap: int = 0) -> Iterator[tuple[int, NDArray[
     for first in range(0, values.size, CHUNK):
         yield first, values[first : first + CHUNK + overlap]
         release(values)
+
+
+def take(values: FloatArray, index: IndexArray) -> FloatArray:
+    """Return a copy of ``values[index]``; a file is released as it is read."""
+    found = [values[:0]]
+    for first in range(0, index.size, TAKEN):
+        found.append(values[index[first : first + TAKEN]])
+        release(values)
+    return np.concatenate(found)
 
 
 def every(stride: int, values: FloatArray) -> FloatArray:

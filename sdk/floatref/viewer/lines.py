@@ -94,7 +94,7 @@ def write_line(page: PageWriter, line: Line, most_bins: int) -> dict[str, Any]:
         "step": line.step,
         "count": line.values.size,
         "base": base,
-        "range": _range(parts["values"])[1] - _range(parts["values"])[0],
+        "span": _range(parts["values"]),
         "levels": [
             _write_level(page, line, dict(zip(parts, level, strict=True)), base)
             for level in zip(*levels, strict=True)

@@ -100,7 +100,7 @@ def _panels_of_paths(
     elevation, roughness, means = (
         [lines[name] for lines in written] for name in ("elevation", "roughness", "means")
     )
-    kind = kind_of_length(max(line["range"] for line in elevation))
+    kind = kind_of_length([line["span"] for line in elevation])
     return [
         {"title": "Elevation", "kind": kind, "lines": elevation},
         {"title": "Roughness over 7.62 m", "kind": "roughness", "lines": roughness},

@@ -8,7 +8,7 @@ from floatref.screening.damage.damaged_samples import NONE
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, Records, new_records
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel
-from floatref.values.scanning import CHUNK, chunks
+from floatref.values.scanning import CHUNK, chunks, take
 
 KNOT_S = 0.025
 """Shortest time in s between knots, if the counts are that frequent."""
@@ -50,8 +50,8 @@ class EncoderPath:
     def of(cls, channel: Channel) -> "EncoderPath":
         """Follow ``channel``; a channel of missing samples has no knots."""
         knots, far, behind, depths = _follow(channel)
-        distance = channel.values[knots["at"]]
-        steps = distance[1:-1] - channel.values[knots["since"][1:-1]]
+        distance = take(channel.values, knots["at"])
+        steps = distance[1:-1] - take(channel.values, knots["since"][1:-1])
         distance[-1:] = far
         usual_m = float(np.median(steps)) if steps.size else 0.0
         return cls(channel, knots, distance, behind, depths, usual_m)

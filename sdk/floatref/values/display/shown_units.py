@@ -1,16 +1,17 @@
 """The units in which pictures show quantities, metric and US; values stay in SI units."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 
-from floatref.values.arrays import FloatArray
 from floatref.values.channels import channel_spec
 
 SMALL_M = 0.5
-"""Largest range of an elevation in m that is shown in mm or inches."""
+"""Largest range of a length in m that is shown in mm or inches."""
+NEAR_M = 10.0
+"""Largest such length in m: a height above the sea stays in m or feet."""
 SYSTEMS = ("si", "us")
 """Names of the metric and the US units, as options have them."""
 
@@ -55,20 +56,19 @@ SPEEDS = ("wheel_speed", "gnss_speed")
 """Channels in m/s that are the speed of the vehicle."""
 
 
-def kind_of_channel(name: str, range_m: float = np.inf) -> str:
-    """Return the kind of quantity of channel ``name``; one in m with this range of values."""
+Span = tuple[float, float]
+"""Lowest and highest value."""
+
+
+def kind_of_channel(name: str, spans: Sequence[Span] = ()) -> str:
+    """Return the kind of quantity of channel ``name``, whose lines have these ``spans``."""
     if name in SPEEDS:
         return "speed"
     unit = channel_spec(name).unit
-    return kind_of_length(range_m) if unit == "m" else KINDS[unit]
+    return kind_of_length(spans) if unit == "m" else KINDS[unit]
 
 
-def kind_of_length(range_m: float) -> str:
-    """Return the kind in which lengths with a range in m are shown."""
-    return "small distance" if range_m < SMALL_M else "distance"
-
-
-def range_of(*values: FloatArray) -> float:
-    """Return the largest range of any of ``values``, in their unit; 0 without a finite one."""
-    ranges = [float(np.nanmax(v) - np.nanmin(v)) for v in values if np.isfinite(v).any()]
-    return max(ranges, default=0.0)
+def kind_of_length(spans: Sequence[Span]) -> str:
+    """Return the kind in which lengths with these ``spans``, in m, are shown."""
+    is_small = all(high - low < SMALL_M and max(-low, high) < NEAR_M for low, high in spans)
+    return "small distance" if is_small else "distance"
