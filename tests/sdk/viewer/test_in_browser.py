@@ -1,0 +1,186 @@
+"""A page in a browser: zooming draws other data, keys and touch work, the console stays empty."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from floatref.values.profile import Profile
+from floatref.values.recording import Recording
+from floatref.viewer import write_profile_page, write_recording_page
+from floatref.viewer.page_file import PageOptions
+
+pytestmark = pytest.mark.slow
+
+DRAWN = "performance.getEntriesByName('drawn').length > 0"
+DATA = "k => { drawNow(); return panels[k].plot.data.map((row) => [...row]); }"
+PHONE = {
+    "viewport": {"width": 390, "height": 844},
+    "is_mobile": True,
+    "has_touch": True,
+    "device_scale_factor": 2,
+}
+
+
+@pytest.fixture
+def opened(chromium: Any) -> Iterator[Callable[..., Any]]:
+    """Return what opens a page; at the end its console has to be empty."""
+    contexts, said = [], []
+
+    def call(path: Path, **options: Any) -> Any:
+        context = chromium.new_context(**({"viewport": {"width": 1200, "height": 900}} | options))
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda message: said.append(message.text))
+        page.on("pageerror", lambda error: said.append(str(error)))
+        page.on("request", lambda request: said.append(request.url) if "http" in request.url else 0)
+        page.goto(path.as_uri())
+        page.wait_for_function(DRAWN)
+        return page
+
+    yield call
+    for context in contexts:
+        context.close()
+    assert said == []
+
+
+@pytest.fixture(scope="module")
+def pages(
+    tmp_path_factory: pytest.TempPathFactory, road: Callable[..., Profile], drive: Recording
+) -> Path:
+    """Return the folder of a page of two runs with a recording, and of that recording."""
+    folder = tmp_path_factory.mktemp("pages")
+    runs = {"first": road(), "late": road(shift=-8)}
+    write_profile_page(folder / "runs.html", runs, PageOptions(), drive)
+    write_recording_page(folder / "drive.html", "drive", drive, PageOptions(most_mb=1.0))
+    return folder
+
+
+def text(page: Any) -> str:
+    return str(page.text_content("#place"))
+
+
+def test_zoom_draws_finer_data_with_the_same_extremes(
+    opened: Callable[..., Any], pages: Path, road: Callable[..., Profile]
+) -> None:
+    page = opened(pages / "runs.html")
+    before = page.evaluate(DATA, 0)
+    box = page.locator(".u-over").first.bounding_box()
+    page.mouse.move(box["x"] + 100, box["y"] + 50)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 150, box["y"] + 60, steps=4)
+    page.mouse.up()
+    after = page.evaluate(DATA, 0)
+    assert after != before
+    assert after[0][0] > before[0][0]
+    assert after[0][-1] < before[0][-1]
+    assert "every one of the points" in text(page)
+    # What is drawn at full zoom are the points of the profile.
+    z = 1000.0 * road()["left"].elevation
+    at, drawn = np.array(after[0]), np.array(after[1], dtype=np.float64)
+    known = np.isfinite(drawn)
+    index = np.rint(at[known] / 0.05).astype(int)
+    np.testing.assert_allclose(drawn[known], z[index], rtol=1e-5, atol=1e-4)
+
+
+def test_all_of_a_line_is_within_what_is_drawn(
+    opened: Callable[..., Any], pages: Path, drive: Recording
+) -> None:
+    page = opened(pages / "drive.html")
+    data = page.evaluate(DATA, 1)
+    left = 1000.0 * drive.channel("height", "left").values
+    drawn = np.array([y for y in data[1] if y is not None])
+    assert (drawn.min(), drawn.max()) == pytest.approx((np.nanmin(left), np.nanmax(left)), rel=1e-6)
+    # The missing second is a gap and shaded.
+    at = np.array(data[0])
+    inside = (at > 30.1) & (at < 30.9)
+    assert all(y is None for y, is_in in zip(data[1], inside, strict=True) if is_in)
+    ((begin, end),) = page.evaluate("panels[1].marks")
+    assert (begin, end) == pytest.approx((30.0, 31.0), abs=0.1)
+
+
+def test_keys_move_zoom_and_switch(opened: Callable[..., Any], pages: Path) -> None:
+    page = opened(pages / "runs.html")
+    whole = text(page)
+
+    def press(key: str) -> str:
+        page.keyboard.press(key)
+        page.evaluate("drawNow()")
+        return text(page)
+
+    near = press("+")
+    right = press("ArrowRight")
+    assert len({whole, near, right}) == 3
+    assert press("ArrowLeft") == near
+    assert press("0") == whole
+    assert " ft" in press("u")
+    assert " s," in press("a")
+    press("u")
+    press("1")
+    hidden = page.evaluate("panels[0].lines.map(isHidden)")
+    assert hidden == [True, False, True, False]
+
+
+def test_units_and_axis_change_picture_and_table(opened: Callable[..., Any], pages: Path) -> None:
+    page = opened(pages / "runs.html")
+    before = page.evaluate(DATA, 0)
+    cell = "table tbody tr >> nth=0 >> td >> nth=4"
+    metric = float(page.text_content(cell))
+    page.select_option("select >> nth=1", "us")
+    after = page.evaluate(DATA, 0)
+    assert after[0][-1] == pytest.approx(before[0][-1] / 0.3048)
+    peaks = [max(y for y in data[1] if y is not None) for data in (before, after)]
+    assert peaks[1] == pytest.approx(peaks[0] / 25.4, rel=1e-6)
+    assert float(page.text_content(cell)) == pytest.approx(63.36 * metric, abs=0.4)
+    page.select_option("select >> nth=0", "time")
+    # The profile is longer than the drive, which lasts 40 s.
+    assert max(page.evaluate(DATA, 0)[0]) == pytest.approx(39.9, abs=0.3)
+
+
+def test_wheel_paths_runs_and_shift(opened: Callable[..., Any], pages: Path) -> None:
+    page = opened(pages / "runs.html")
+    page.get_by_label("right", exact=True).uncheck()
+    data = page.evaluate(DATA, 0)
+    assert all(y is None for y in data[5])
+    assert any(y is not None for y in data[1])
+    page.get_by_text("remove").click()
+    assert page.evaluate("shown.shifts[1]") == pytest.approx(-0.4, abs=1e-6)
+    page.evaluate("showPart(50, 52)")
+    data = page.evaluate(DATA, 0)
+    pairs = [
+        (first, late)
+        for first, late in zip(data[1], data[9], strict=True)
+        if isinstance(first, float) and isinstance(late, float)
+    ]
+    heights = np.array(pairs)
+    np.testing.assert_allclose(np.diff(heights[:, 0]), np.diff(heights[:, 1]), atol=1e-3)
+    page.get_by_label("late", exact=True).uncheck()
+    assert all(y is None for y in page.evaluate(DATA, 0)[9])
+
+
+def test_a_row_of_the_table_shows_its_place(opened: Callable[..., Any], pages: Path) -> None:
+    page = opened(pages / "runs.html")
+    page.get_by_role("button", name="100.00", exact=True).first.click()
+    begin, end = page.evaluate("[shown.begin, shown.end]")
+    assert begin < 100.0 < 200.0 < end < 220.0
+
+
+def test_a_phone_shows_it_and_pans_by_touch(opened: Callable[..., Any], pages: Path) -> None:
+    page = opened(pages / "drive.html", **PHONE)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    sizes = page.evaluate(
+        "[...document.querySelectorAll('#moves button')].map(b => b.offsetHeight)"
+    )
+    assert min(sizes) >= 44
+    page.evaluate("showPart(10, 20)")
+    page.evaluate("drawNow()")
+    touch = """(xs) => xs.forEach((x, k) => document.querySelector('#picture').dispatchEvent(
+      new PointerEvent(k ? 'pointermove' : 'pointerdown',
+        {pointerId: 1, pointerType: 'touch', clientX: x, clientY: 300, bubbles: true})))"""
+    page.evaluate(touch, [200, 150])
+    begin, end = page.evaluate("[shown.begin, shown.end]")
+    assert begin > 10.5
+    assert end - begin == pytest.approx(10.0)
+    assert page.locator("#map canvas").is_visible()
