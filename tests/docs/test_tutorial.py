@@ -31,7 +31,7 @@ def test_the_page_shows_the_example_as_it_is():
         assert block.split("```")[0].strip() in (EXAMPLE / "test_our_profiler.py").read_text()
 
 
-@pytest.mark.parametrize("page", ["tutorial", "allan", "batch"])
+@pytest.mark.parametrize("page", ["tutorial", "view", "allan", "batch"])
 def test_every_command_prints_what_the_page_shows(page: str) -> None:
     found = subprocess.run(
         [sys.executable, ".ci/consoles.py", f"docs/{page}.md"],

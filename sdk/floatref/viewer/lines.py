@@ -94,7 +94,6 @@ def write_line(page: PageWriter, line: Line, most_bins: int) -> dict[str, Any]:
         "step": line.step,
         "count": line.values.size,
         "base": base,
-        "span": _range(parts["values"]),
         "levels": [
             _write_level(page, line, dict(zip(parts, level, strict=True)), base)
             for level in zip(*levels, strict=True)

@@ -8,7 +8,7 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref.files.atomic import replace_file
-from floatref.values.display.shown_units import SHOWN
+from floatref.values.display.shown_units import NEAR_M, SHOWN, SMALL_M
 from floatref.values.windows import Window
 from floatref.version import __version__
 from floatref.viewer.page_writer import PageWriter
@@ -52,7 +52,9 @@ class PageOptions:
         """Return what a page says of itself: ``title``, first axis, units, and its maker."""
         shown = {kind: dict(systems) for kind, systems in SHOWN.items()}
         made = f"floatref {__version__}"
-        return {"title": title, "axis": axis, "units": self.units, "shown": shown, "made": made}
+        small = {"range": SMALL_M, "largest": NEAR_M}
+        known = {"title": title, "axis": axis, "made": made, "small": small}
+        return {**known, "units": self.units, "shown": shown}
 
 
 @contextmanager

@@ -7,7 +7,6 @@ from typing import Any
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
 from floatref.values.arrays import release
-from floatref.values.display.shown_units import kind_of_length
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref.values.windows import first_time, points_of
@@ -100,9 +99,8 @@ def _panels_of_paths(
     elevation, roughness, means = (
         [lines[name] for lines in written] for name in ("elevation", "roughness", "means")
     )
-    kind = kind_of_length([line["span"] for line in elevation])
     return [
-        {"title": "Elevation", "kind": kind, "lines": elevation},
+        {"title": "Elevation", "kind": "distance", "lines": elevation},
         {"title": "Roughness over 7.62 m", "kind": "roughness", "lines": roughness},
         {"title": "IRI of segments", "kind": "roughness", "lines": means},
     ], rows

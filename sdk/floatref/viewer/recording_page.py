@@ -74,7 +74,7 @@ def _panels(page: PageWriter, drawn: Recording, origin_s: float, bins: int) -> l
         title = channel.id.name.replace("_", " ").capitalize().replace("Gnss", "GNSS")
         panels.setdefault(channel.id.name, {"title": title, "lines": []})["lines"].append(line)
     for name, panel in panels.items():
-        panel["kind"] = kind_of_channel(name, [line["span"] for line in panel["lines"]])
+        panel["kind"] = kind_of_channel(name)
     return list(panels.values())
 
 

@@ -77,6 +77,7 @@ def test_zoom_draws_finer_data_with_the_same_extremes(
     assert after[0][0] > before[0][0]
     assert after[0][-1] < before[0][-1]
     assert "every one of the points" in text(page)
+    assert page.text_content("h2") == "Elevation (mm)"
     # What is drawn at full zoom are the points of the profile.
     z = 1000.0 * road()["left"].elevation
     at, drawn = np.array(after[0]), np.array(after[1], dtype=np.float64)

@@ -89,9 +89,9 @@ def view(
     else:
         refuse_channels(channels)
         document = _view_profiles(sources, out, options, recording, reading)
-    finest = document["finest"]
-    megabytes = out.stat().st_size / 1e6
-    click.echo(f"{out}: {megabytes:.1f} MB, finest {finest['samples']} {finest['of']} in a bin")
+    samples, of = document["finest"]["samples"], document["finest"]["of"]
+    finest = f"every one of the {of}" if samples == 1 else f"bins of {samples} {of} and coarser"
+    click.echo(f"{out}: {out.stat().st_size / 1e6:.1f} MB, {finest}")
 
 
 def _view_recording(

@@ -84,7 +84,7 @@ function inColumns(line, level, first, last, begin, end, width, shift) {
   const marked = level.marked === undefined ? null : array(level.marked);
   for (let bin = first; marked && bin < last; bin++) {
     const at = begin + column[bin - first] / scale;
-    if (marked[bin]) addMark(marks, at, at + 1 / scale);
+    if (marked[bin]) addMark(marks, at, at + 1 / scale, 0.5 / scale);
   }
   const fill = ([low, high], base) => {
     const lows = new Array(2 * width).fill(undefined);
@@ -121,9 +121,10 @@ function columnPlaces(begin, end, width) {
   return places.xs;
 }
 
-function addMark(marks, begin, end) {
+// Marks that are no farther apart than `slack` become one.
+function addMark(marks, begin, end, slack = 0) {
   const last = marks[marks.length - 1];
-  if (last && begin <= last[1]) last[1] = Math.max(last[1], end);
+  if (last && begin <= last[1] + slack) last[1] = Math.max(last[1], end);
   else marks.push([begin, end]);
 }
 

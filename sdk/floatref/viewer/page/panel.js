@@ -4,6 +4,7 @@
 const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#B07800"];
 // Of the kinds of event that have a strip of colour at the top of every panel.
 const EVENT_COLOURS = { stop: "#7030a0", slow: "#9a9a9a", braking: "#b8860b" };
+const FROM_ZERO = ["roughness", "speed"];
 const MARK = "#F0C9C0";
 const paths = [...new Set(page.panels.flatMap((panel) => panel.lines.map((line) => line.path)))].filter(Boolean);
 const panels = [];
@@ -59,7 +60,7 @@ class Panel {
 
   draw() {
     const data = this.data();
-    const unit = unitOf(this.entry.kind);
+    const unit = unitOf(this.kind);
     this.head.textContent = unit.text ? `${this.entry.title} (${unit.text})` : this.entry.title;
     this.values.forEach(({ item }, k) => (item.hidden = isHidden(this.lines[k])));
     if (!this.plot) this.plot = new uPlot(this.options(), data, this.element);
@@ -77,7 +78,6 @@ class Panel {
   // The data of uPlot: places, then for each line its values, the others, and both ends of the band.
   data() {
     const xUnit = unitOf(shown.axis).factor;
-    const unit = unitOf(this.entry.kind).factor;
     const [begin, end] = [shown.begin, shown.end];
     this.marks = [];
     this.samples = 0;
@@ -88,7 +88,10 @@ class Panel {
       this.samples = Math.max(this.samples, points.samples);
       return points;
     });
-    this.range = rangeOf(tables, begin, end, this.entry.kind === "roughness" || this.entry.kind === "speed").map((y) => y * unit);
+    const range = rangeOf(tables, begin, end, FROM_ZERO.includes(this.entry.kind));
+    this.kind = kindFor(this.entry.kind, range);
+    const unit = unitOf(this.kind).factor;
+    this.range = range.map((y) => y * unit);
     const rows = tables.map((points) => this.rowsOf(points, unit));
     return joined(tables, rows, xUnit);
   }
@@ -184,14 +187,25 @@ class Panel {
   }
 }
 
-// The range of all valid values in sight, or of the others where there is no valid one.
+// Lengths are shown in small units where what is in sight is small.
+function kindFor(kind, [low, high]) {
+  if (!kind.endsWith("distance")) return kind;
+  const isSmall = high - low < page.small.range && Math.max(-low, high) < page.small.largest;
+  return isSmall ? "small distance" : "distance";
+}
+
+// The range of all valid values in sight, or of the others where there is no valid one. The points
+// next to what is in sight count too: lines go to them.
 function rangeOf(tables, begin, end, fromZero) {
   for (const name of ["values", "others"]) {
     let [low, high] = [Infinity, -Infinity];
     for (const points of tables) {
       if (!points || !points[name]) continue;
+      const count = points.xs.length;
+      const first = firstWhere(0, count, (k) => points.xs[k] >= begin) - 1;
+      const last = firstWhere(0, count, (k) => points.xs[k] > end);
       points.xs.forEach((x, k) => {
-        if (x < begin || x > end || typeof points[name].lows[k] !== "number") return;
+        if (k < first || k > last || typeof points[name].lows[k] !== "number") return;
         low = Math.min(low, points[name].lows[k]);
         high = Math.max(high, points[name].highs[k]);
       });
