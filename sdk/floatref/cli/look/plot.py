@@ -15,6 +15,7 @@ from floatref.cli.look.sources import (
 )
 from floatref.engine.formats import profile_of
 from floatref.files.sources import name_errors
+from floatref.values.display.short_text import join_some
 from floatref.values.windows import (
     Window,
     choose_channels,
@@ -61,20 +62,23 @@ def plot(
     check_drawing(out)
     window, reading = Window(begin, end), Reading(adapter, channel_map)
     if is_recording(source, reading):
-        figure = _of_recording(source, reading, window, channels, units, title)
+        figure, drawn = _of_recording(source, reading, window, channels, units, title)
     else:
         refuse_channels(channels)
-        figure = _of_profile(source, window, units, title)
+        figure, drawn = _of_profile(source, window, units, title)
     save(figure, out)
-    click.echo(f"{out}: {out.stat().st_size / 1000:.0f} kB")
+    click.echo(f"{out}: {drawn}")
 
 
-def _of_profile(source: Path, window: Window, units: str, title: str) -> "Figure":
+def _of_profile(source: Path, window: Window, units: str, title: str) -> tuple["Figure", str]:
+    """Return the figure of the part of a profile in ``window``, and which part that is."""
     from floatref.plots.profile_figure import profile_figure
 
     read = profile_of(source)
     with name_errors(source):
-        return profile_figure(cut_profile(read, window), units, title or None)
+        cut = cut_profile(read, window)
+        span = f"{cut.start_m:.1f} to {cut.start_m + cut.length_m:.1f} m"
+        return profile_figure(cut, units, title or None), f"{span}, {', '.join(cut)}"
 
 
 def _of_recording(
@@ -84,11 +88,13 @@ def _of_recording(
     channels: tuple[str, ...],
     units: str,
     title: str,
-) -> "Figure":
+) -> tuple["Figure", str]:
+    """Return the figure of the chosen channels in ``window``, and which these are."""
     from floatref.plots.recording_figure import recording_figure
 
     read = reading.recording_at(source)
     with name_errors(source):
         chosen = replace(read, channels=choose_channels(read, channels))
         cut = cut_recording(chosen, window, first_time(read))
-        return recording_figure(cut, units, title, first_time(read))
+        names = join_some([str(channel.id) for channel in cut.channels])
+        return recording_figure(cut, units, title, first_time(read)), names

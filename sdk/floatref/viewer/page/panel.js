@@ -211,8 +211,9 @@ function rangeOf(tables, begin, end, fromZero) {
       });
     }
     if (low > high) continue;
+    if (fromZero) low = Math.min(0, low);
     const margin = 0.08 * (high - low) || Math.abs(high) * 0.01 || 0.001;
-    return [fromZero ? Math.min(0, low) : low - margin, high + margin];
+    return [fromZero ? low : low - margin, high + margin];
   }
   return [0, 1];
 }
