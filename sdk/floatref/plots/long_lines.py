@@ -10,7 +10,7 @@ import numpy as np
 from floatref.plots.figure import BINS, Places
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.clock import Clock, StampedClock
-from floatref.values.extremes import Extremes, samples_per_bin
+from floatref.values.parts.extremes import Extremes, samples_per_bin
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,8 +7,8 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.measures import agreement, on_common_grid
 from floatref.values.arrays import BoolArray
+from floatref.values.parts.windows import Window, cut_profile
 from floatref.values.profile import Profile
-from floatref.values.windows import Window, cut_profile
 
 LONGEST_M = 1000.0
 """Longest stretch in m from which a lag is found: more changes nothing but the time it takes."""

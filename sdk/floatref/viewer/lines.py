@@ -8,7 +8,7 @@ import numpy as np
 
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.clock import UniformClock
-from floatref.values.extremes import Extremes, samples_per_bin
+from floatref.values.parts.extremes import Extremes, samples_per_bin
 from floatref.values.recording import Channel
 from floatref.viewer.page_writer import BYTE, DOUBLE, SINGLE, PageWriter
 

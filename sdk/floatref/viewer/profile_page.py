@@ -7,9 +7,9 @@ from typing import Any
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
 from floatref.values.arrays import release
+from floatref.values.parts.windows import first_time, points_of
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
-from floatref.values.windows import first_time, points_of
 from floatref.viewer.events import Event, events_of_recording, invalid_stretches, slow_stretches
 from floatref.viewer.journey import Journey, write_track
 from floatref.viewer.lags import lag_of

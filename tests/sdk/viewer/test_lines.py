@@ -89,7 +89,7 @@ def test_places_of_stamped_samples_are_those_of_the_first_of_each_bin(count: int
 @FEW
 def test_bins_are_as_many_as_the_size_allows(sizes: list[tuple[int, int]], most: int) -> None:
     bins = bins_within(sizes, most)
-    from floatref.values.extremes import samples_per_bin
+    from floatref.values.parts.extremes import samples_per_bin
 
     text = sum(-(-n // samples_per_bin(n, bins)) * size for n, size in sizes) * 16 / 15 * 4 / 3
     assert text <= most or bins <= FEWEST_BINS

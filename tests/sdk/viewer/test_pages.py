@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.measures import IriSettings
 from floatref.measures.valid_segments import segment_iris
+from floatref.values.parts.windows import Window
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
-from floatref.values.windows import Window
 from floatref.viewer import write_profile_page, write_recording_page
 from floatref.viewer.page_file import PageOptions
 

@@ -2,11 +2,10 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from floatref.cli.look.sources import (
+from floatref.cli.look.look_sources import (
     Reading,
     check_out,
     is_recording,
@@ -16,16 +15,13 @@ from floatref.cli.look.sources import (
 from floatref.engine.formats import profile_of
 from floatref.files.sources import name_errors
 from floatref.values.display.short_text import join_some
-from floatref.values.windows import (
+from floatref.values.parts.windows import (
     Window,
     choose_channels,
     cut_profile,
     cut_recording,
     first_time,
 )
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @click.command("plot")
@@ -56,45 +52,50 @@ def plot(
     --from and --to are distances in m for a profile, and seconds after the first sample for a
     recording. All figures are those of the part that is drawn.
     """
-    from floatref.plots import check_drawing, save
+    from floatref.plots import check_drawing
 
     check_out(out, [source], overwrite)
     check_drawing(out)
     window, reading = Window(begin, end), Reading(adapter, channel_map)
     if is_recording(source, reading):
-        figure, drawn = _of_recording(source, reading, window, channels, units, title)
+        drawn = _draw_recording(source, out, reading, window, channels, units, title)
     else:
         refuse_channels(channels)
-        figure, drawn = _of_profile(source, window, units, title)
-    save(figure, out)
+        drawn = _draw_profile(source, out, window, units, title)
     click.echo(f"{out}: {drawn}")
 
 
-def _of_profile(source: Path, window: Window, units: str, title: str) -> tuple["Figure", str]:
-    """Return the figure of the part of a profile in ``window``, and which part that is."""
+def _draw_profile(source: Path, out: Path, window: Window, units: str, title: str) -> str:
+    """Draw the part of a profile in ``window`` to ``out``, and return which part that is."""
+    from floatref.plots import save
     from floatref.plots.profile_figure import profile_figure
 
     read = profile_of(source)
     with name_errors(source):
         cut = cut_profile(read, window)
-        span = f"{cut.start_m:.1f} to {cut.start_m + cut.length_m:.1f} m"
-        return profile_figure(cut, units, title or None), f"{span}, {', '.join(cut)}"
+        figure = profile_figure(cut, units, title or None)
+    save(figure, out)
+    span = f"{cut.start_m:.1f} to {cut.start_m + cut.length_m:.1f} m"
+    return f"{span}, {', '.join(cut)}"
 
 
-def _of_recording(
+def _draw_recording(
     source: Path,
+    out: Path,
     reading: Reading,
     window: Window,
     channels: tuple[str, ...],
     units: str,
     title: str,
-) -> tuple["Figure", str]:
-    """Return the figure of the chosen channels in ``window``, and which these are."""
+) -> str:
+    """Draw the chosen channels in ``window`` to ``out``, and return which these are."""
+    from floatref.plots import save
     from floatref.plots.recording_figure import recording_figure
 
     read = reading.recording_at(source)
     with name_errors(source):
         chosen = replace(read, channels=choose_channels(read, channels))
         cut = cut_recording(chosen, window, first_time(read))
-        names = join_some([str(channel.id) for channel in cut.channels])
-        return recording_figure(cut, units, title, first_time(read)), names
+        figure = recording_figure(cut, units, title, first_time(read))
+    save(figure, out)
+    return join_some([str(channel.id) for channel in cut.channels])

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from floatref.cli.look.sources import (
+from floatref.cli.look.look_sources import (
     Reading,
     check_out,
     is_recording,
@@ -15,7 +15,7 @@ from floatref.cli.look.sources import (
     refuse_channels,
 )
 from floatref.errors import InputError
-from floatref.values.windows import Window
+from floatref.values.parts.windows import Window
 from floatref.viewer.page_file import PageOptions
 
 SUFFIXES = (".html", ".htm")

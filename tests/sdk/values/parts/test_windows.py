@@ -7,9 +7,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.recording import Channel, Recording
-from floatref.values.windows import (
+from floatref.values.parts.windows import (
     Window,
     choose_channels,
     cut_profile,
@@ -17,6 +15,8 @@ from floatref.values.windows import (
     first_time,
     points_of,
 )
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Channel, Recording
 
 LIMITS = st.integers(-2000, 8000).map(lambda k: k / 100 + 0.003) | st.none()
 FEW = settings(max_examples=30)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from floatref.errors import InputError
-from floatref.values.extremes import COARSER, FEWEST_BINS, Extremes, samples_per_bin
+from floatref.values.parts.extremes import COARSER, FEWEST_BINS, Extremes, samples_per_bin
 from floatref.values.scanning import CHUNK
 
 VALUES = arrays(
