@@ -16,6 +16,7 @@ from floatref.values.scanning import (
     longest_gap,
     longest_step,
     median_step,
+    take,
 )
 
 SAMPLES = npst.arrays(
@@ -88,3 +89,11 @@ def test_the_longest_gap_is_that_of_the_text(values: np.ndarray) -> None:
     text = "".join("x" if np.isnan(value) else " " for value in values)
     longest = max(text.split(" "), key=len)
     assert longest_gap(values) == (text.index(longest) if longest else 0, len(longest))
+
+
+@given(st.lists(st.integers(0, 4999), max_size=3000))
+@settings(max_examples=10)
+def test_samples_are_taken_where_they_are(index: list[int]) -> None:
+    values = np.random.default_rng(0).normal(size=5000)
+    chosen = np.array(index, dtype=np.int64)
+    np.testing.assert_array_equal(take(values, chosen), values[chosen])
