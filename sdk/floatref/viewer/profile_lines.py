@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from floatref.errors import InputError
 from floatref.measures import IriSettings
 from floatref.measures.valid_roughness import roughness_of
 from floatref.measures.valid_segments import SegmentIri, segment_iris
@@ -71,10 +72,18 @@ def roughness_line(run: Run, track: ProfileTrack) -> Line:
 
 
 def run_segments(run: Run, track: ProfileTrack, segment_m: float) -> list[SegmentIri]:
-    """Return the IRI of all of ``track``, then of every segment that is, in part, shown."""
+    """Return the IRI of all of ``track``, then of every segment that is, in part, shown.
+
+    Nothing for a profile that is too short for the car, or whose interval is too long for it.
+    Raises InputError for a segment shorter than the interval.
+    """
+    settings = IriSettings(segment_m=segment_m)
     place = run.profile.interval_m, run.profile.start_m
-    (whole,) = segment_iris(track, place[0], IriSettings(), place[1])
-    segments = segment_iris(track, place[0], IriSettings(segment_m=segment_m), place[1])
+    try:
+        (whole,) = segment_iris(track, place[0], IriSettings(), place[1])
+    except InputError:
+        return []
+    segments = segment_iris(track, place[0], settings, place[1])
     begin, end = run.span_m
     return [whole, *(s for s in segments if s.start_m < end and s.start_m + s.length_m > begin)]
 

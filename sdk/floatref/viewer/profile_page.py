@@ -38,8 +38,7 @@ def write_profile_page(
 
     The first is the reference; the page has the lag in m of each other one behind it.
     ``recording``, of the first one, adds the time axis, speed, events and the map. Raises
-    InputError, naming the profile, for a window outside it, an interval above 2 m, an elevation
-    beyond 1000 km, and if ``path`` cannot be written.
+    InputError, naming the profile, for a window outside it, and if ``path`` cannot be written.
     """
     runs = [_run(number, name, profiles[name], options) for number, name in enumerate(profiles)]
     title = options.title or ", ".join(profiles)
@@ -67,7 +66,7 @@ def _document(
         "span": {"distance": _span(runs)},
         "finest": {"samples": finest(panels[0]["lines"]), "of": "points"},
         "events": [event._asdict() for event in events],
-        "tables": [table("IRI", IRI_HEADER, rows)],
+        "tables": [table("IRI", IRI_HEADER, rows)] if rows else [],
     }
     if events:
         document["tables"].append(event_table(events))
@@ -88,22 +87,27 @@ def _panels_of_paths(
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """Write elevation, roughness and IRI; return their panels and the rows of the table."""
     written: list[dict[str, dict[str, Any]]] = []
+    means: list[dict[str, Any]] = []
     rows: list[dict[str, Any]] = []
     for run, track in ((each, track) for each in runs for track in each.profile.tracks):
         with name_errors(f"{run.name}: track {track.name}"):
             segments = run_segments(run, track, options.segment_m)
             written.append(_write_path(page, run, track, bins))
-            written[-1]["means"] = write_line(page, mean_line(run, track, segments[1:]), bins)
+            if segments:
+                means.append(write_line(page, mean_line(run, track, segments[1:]), bins))
         release(track.elevation)
         rows += [iri_row(run.name, track.name, s, not k) for k, s in enumerate(segments)]
-    elevation, roughness, means = (
-        [lines[name] for lines in written] for name in ("elevation", "roughness", "means")
-    )
-    return [
-        {"title": "Elevation", "kind": "distance", "lines": elevation},
-        {"title": "Roughness over 7.62 m", "kind": "roughness", "lines": roughness},
-        {"title": "IRI of segments", "kind": "roughness", "lines": means},
-    ], rows
+    panels = [
+        {"title": "Elevation", "kind": "distance", "lines": [w["elevation"] for w in written]},
+        {
+            "title": "Roughness over 7.62 m",
+            "kind": "roughness",
+            "lines": [w["roughness"] for w in written],
+        },
+    ]
+    if means:
+        panels.append({"title": "IRI of segments", "kind": "roughness", "lines": means})
+    return panels, rows
 
 
 def _write_path(page: PageWriter, run: Run, track: ProfileTrack, bins: int) -> dict[str, Any]:

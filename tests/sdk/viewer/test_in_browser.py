@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from floatref.values.profile import Profile
-from floatref.values.recording import Recording
+from floatref.values.clock import StampedClock
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Channel, Recording
 from floatref.viewer import write_profile_page, write_recording_page
 from floatref.viewer.page_file import PageOptions
 
@@ -166,6 +167,23 @@ def test_a_row_of_the_table_shows_its_place(opened: Callable[..., Any], pages: P
     page.get_by_role("button", name="100.00", exact=True).first.click()
     begin, end = page.evaluate("[shown.begin, shown.end]")
     assert begin < 100.0 < 200.0 < end < 220.0
+
+
+def test_a_page_of_next_to_nothing_opens(opened: Callable[..., Any], tmp_path: Path) -> None:
+    invalid = ProfileTrack.of("left", np.arange(300.0), np.zeros(300, np.bool_))
+    missing = ProfileTrack.of("left", np.full(300, np.nan))
+    short = ProfileTrack.of("left", [0.0, 0.1])
+    for name, track in (("invalid", invalid), ("missing", missing), ("short", short)):
+        path = tmp_path / f"{name}.html"
+        write_profile_page(path, {name: Profile(0.25, (track,))}, PageOptions())
+        page = opened(path)
+        assert text(page).startswith("0.0")
+        for key in "+-0u":
+            page.keyboard.press(key)
+        page.evaluate("drawNow()")
+    lone = Recording((Channel.of("gnss_height", [1.0], StampedClock.of([6.0])),))
+    write_recording_page(tmp_path / "lone.html", "lone", lone, PageOptions())
+    assert "every one of the samples" in text(opened(tmp_path / "lone.html"))
 
 
 def test_a_phone_shows_it_and_pans_by_touch(opened: Callable[..., Any], pages: Path) -> None:

@@ -143,6 +143,20 @@ def test_a_recording_without_gnss_or_encoder_has_no_map_and_no_distance(
     assert [path.name for path in tmp_path.iterdir()] == ["r.html"]
 
 
+@pytest.mark.parametrize(("count", "interval_m"), [(2, 0.1), (1000, 5.0)])
+def test_a_profile_without_an_iri_is_drawn_without_one(
+    read_page: Read, tmp_path: Path, count: int, interval_m: float
+) -> None:
+    run = Profile(interval_m, (ProfileTrack.of("left", np.arange(float(count))),))
+    write_profile_page(tmp_path / "p.html", {"run": run}, OVER)
+    document = read_page(tmp_path / "p.html").document
+    assert [panel["title"] for panel in document["panels"]] == [
+        "Elevation",
+        "Roughness over 7.62 m",
+    ]
+    assert document["tables"] == []
+
+
 def test_a_long_run_is_drawn_in_coarser_bins(
     drive: Recording, read_page: Read, tmp_path: Path
 ) -> None:
