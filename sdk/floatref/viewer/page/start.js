@@ -54,7 +54,6 @@ function start() {
   explainColours();
   makeMoves();
   makeChoices();
-  drawTables();
   listen(picture);
   const watcher = new IntersectionObserver((entries) => {
     for (const entry of entries) {
@@ -73,6 +72,8 @@ function start() {
   });
   window.addEventListener("beforeprint", () => panels.forEach((panel) => panel.draw()));
   showAll();
+  // A table of thousands of rows waits until the picture is there.
+  requestAnimationFrame(() => requestAnimationFrame(drawTables));
 }
 
 start();
