@@ -21,6 +21,8 @@ BRAKING_S = 1.0
 """Time in s over which a deceleration is taken."""
 SHORTEST_S = 0.1
 """Shortest time in s of missing samples that is an event."""
+ROUNDING_S = 1e-6
+"""A time in s that the difference of two times of an epoch may be off."""
 MOST_PLACES = 100_000
 """Places at which a recorded speed is compared with a limit."""
 MOST = 200
@@ -61,7 +63,7 @@ def missing_samples(channel: Channel) -> list[Event]:
     found = [
         Event(begin, end, "missing", f"{channel.id}, {end - begin:.2f} s")
         for begin, end in _missing(channel)
-        if end - begin >= SHORTEST_S
+        if end - begin >= SHORTEST_S - ROUNDING_S
     ]
     return sorted(_longest(found))
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from floatref.values.clock import UniformClock
@@ -51,6 +51,7 @@ def test_a_stop_lasts_as_long_as_it_does_and_hard_braking_is_named(
 
 
 @given(st.lists(st.tuples(st.integers(0, 400), st.integers(1, 60)), max_size=4))
+@example([(0, 10)])
 @settings(max_examples=20)
 def test_missing_samples_are_where_they_are(spans: list[tuple[int, int]]) -> None:
     values = np.zeros(500)
