@@ -12,7 +12,7 @@ from floatref.plots.figure import COLOURS, label_of, legend, new_figure, shade, 
 from floatref.plots.long_lines import Even
 from floatref.plots.validity_marks import Marked, iri_labels
 from floatref.values.arrays import release
-from floatref.values.display.shown_units import SHOWN, Unit, kind_of_length
+from floatref.values.parts.shown_units import SHOWN, Unit, kind_of_length
 from floatref.values.profile import Profile
 
 if TYPE_CHECKING:

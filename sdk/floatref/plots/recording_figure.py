@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from floatref.plots.figure import COLOURS, label_of, legend, new_figure, shade, title
 from floatref.plots.long_lines import Reduced, Times
-from floatref.values.display.shown_units import SHOWN, kind_of_channel
+from floatref.values.parts.shown_units import SHOWN, kind_of_channel
 from floatref.values.recording import Channel, Recording
 
 if TYPE_CHECKING:

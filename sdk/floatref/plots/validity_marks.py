@@ -13,7 +13,7 @@ from floatref.plots.figure import Places, label_of
 from floatref.plots.long_lines import Reduced
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.display.short_text import percent
-from floatref.values.display.shown_units import SHOWN, Unit
+from floatref.values.parts.shown_units import SHOWN, Unit
 from floatref.values.profile import Profile
 
 if TYPE_CHECKING:

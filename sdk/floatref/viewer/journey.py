@@ -9,7 +9,7 @@ from floatref.screening.damage.encoder_path import EncoderPath, times_at
 from floatref.stages.signals import DISTANCE
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.recording import Channel, Recording
-from floatref.viewer.lines import Line
+from floatref.viewer.drawn_lines import Line
 from floatref.viewer.page_writer import DOUBLE, PageWriter
 
 STEP_S, MOST_TIMES = 0.05, 40_000

@@ -8,7 +8,7 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref.files.atomic import replace_file
-from floatref.values.display.shown_units import NEAR_M, SHOWN, SMALL_M
+from floatref.values.parts.shown_units import NEAR_M, SHOWN, SMALL_M
 from floatref.values.parts.windows import Window
 from floatref.version import __version__
 from floatref.viewer.page_writer import PageWriter

@@ -11,7 +11,7 @@ from floatref.measures.valid_roughness import roughness_of
 from floatref.measures.valid_segments import SegmentIri, segment_iris
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile, ProfileTrack
-from floatref.viewer.lines import BIN_BYTES, MORE_BYTES, Line
+from floatref.viewer.drawn_lines import BIN_BYTES, MORE_BYTES, Line
 
 ALONG, SPEED = "along_m", "speed_mps"
 """Of a profile's record of distance: where the speed is known, and the speed."""

@@ -10,10 +10,10 @@ from floatref.values.arrays import release
 from floatref.values.parts.windows import first_time, points_of
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
+from floatref.viewer.drawn_lines import bins_within, finest, write_line
 from floatref.viewer.events import Event, events_of_recording, invalid_stretches, slow_stretches
 from floatref.viewer.journey import Journey, write_track
 from floatref.viewer.lags import lag_of
-from floatref.viewer.lines import bins_within, finest, write_line
 from floatref.viewer.page_file import PageOptions, new_page
 from floatref.viewer.page_writer import PageWriter
 from floatref.viewer.profile_lines import (

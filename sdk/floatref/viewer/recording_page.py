@@ -7,12 +7,12 @@ from typing import Any
 
 from floatref.files.sources import name_errors
 from floatref.values.clock import StampedClock
-from floatref.values.display.shown_units import kind_of_channel
+from floatref.values.parts.shown_units import kind_of_channel
 from floatref.values.parts.windows import choose_channels, cut_recording, first_time
 from floatref.values.recording import Channel, Recording
+from floatref.viewer.drawn_lines import BIN_BYTES, MORE_BYTES, Line, bins_within, finest, write_line
 from floatref.viewer.events import events_of_recording
 from floatref.viewer.journey import Journey, write_track
-from floatref.viewer.lines import BIN_BYTES, MORE_BYTES, Line, bins_within, finest, write_line
 from floatref.viewer.page_file import PageOptions, new_page
 from floatref.viewer.page_writer import PageWriter
 from floatref.viewer.tables import channel_table, event_table

@@ -12,7 +12,7 @@ from floatref.errors import InputError
 from floatref.files.atomic import check_target
 from floatref.interfaces.adapter import RecordingDirectory
 from floatref.mapping.sources import recording_of
-from floatref.values.display.shown_units import SYSTEMS
+from floatref.values.parts.shown_units import SYSTEMS
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 

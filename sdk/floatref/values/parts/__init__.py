@@ -1,1 +1,1 @@
-"""A part of a value, and what a picture needs of a long one."""
+"""Parts of values, and what pictures need of long ones: extremes, and units."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.display.short_text import hint_at
+from floatref.values.display.similar_names import hint_at
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
 

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from floatref.viewer.lines import FEWEST_BINS, Line, bins_within, write_line
+from floatref.viewer.drawn_lines import FEWEST_BINS, Line, bins_within, write_line
 from floatref.viewer.page_writer import PageWriter
 
 FEW = settings(max_examples=25)
