@@ -146,7 +146,7 @@ def test_missing_matplotlib_says_how_to_get_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(InputError, match=r"pip install 'floatref\[plot\]'"):
+    with pytest.raises(InputError, match=r"pip install -e \"\.\[plot\]\""):
         draw_profile(profile("left"), tmp_path / "p.png")
 
 

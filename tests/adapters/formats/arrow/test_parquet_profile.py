@@ -106,7 +106,7 @@ def test_a_missing_library_is_named_with_the_extra(tmp_path, profile, monkeypatc
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(InputError, match=r"a\.parquet: reading Parquet needs pyarrow; install fl"):
         ParquetProfile().read(path)
-    with pytest.raises(InputError, match=r"writing Parquet needs pyarrow; install floatref\[ad"):
+    with pytest.raises(InputError, match=r"writing Parquet needs pyarrow; .*\.\[adapters\]"):
         ParquetProfile().write(profile, tmp_path / "b.parquet")
 
 
