@@ -31,13 +31,18 @@ HEIGHTS = (2.6, 1.6, 2.2)
 
 
 def draw_comparison(
-    reference: Profile, profile: Profile, path: Path, max_offset_m: float = 1.0
+    reference: Profile,
+    profile: Profile,
+    path: Path,
+    max_offset_m: float = 1.0,
+    placement_m: float | None = None,
 ) -> None:
     """Write a drawing of ``profile`` against ``reference`` to ``path`` (.png, .pdf or .svg).
 
     One column for each wheel path of the reference: both elevations, high-pass filtered alike with
     −3 dB at 91.44 m, their difference, and both short-interval roughness profiles in m/km. The
-    title holds the agreement (2.16) within ±``max_offset_m``. Points that are not valid in both are
+    title holds the agreement (2.16) within ±``max_offset_m``, and by how many m ``profile`` was
+    moved before, ``placement_m``, unless that is None or 0. Points that are not valid in both are
     shaded and dotted, and the IRIs are over the others, with their share. Raises InputError if a
     wheel path is missing in ``profile``, the two do not overlap, matplotlib is missing, or ``path``
     cannot be written.
@@ -49,7 +54,8 @@ def draw_comparison(
     for column, expected in zip(axes.T, reference.tracks, strict=True):
         found = profile.track(expected.name)
         _draw_track(list(column), expected, found, reference)
-        title(column[0], _title(expected, found, reference.interval_m, max_offset_m))
+        moved = f", placed by {-placement_m:+.3f} m" if placement_m else ""
+        title(column[0], _title(expected, found, reference.interval_m, max_offset_m) + moved)
     axes[0, 0].set_xlim(reference.distance_m[0], reference.distance_m[-1])
     save(figure, path)
 

@@ -60,7 +60,8 @@ def test_workers_that_share_the_folder_will_do(tmp_path: Path) -> None:
         (
             lacks_floatref,
             "cannot run floatref (ModuleNotFoundError: No module named 'floatref'), "
-            f'it needs version {__version__}; run in a clone of floatref: pip install -e ".[batch]"',
+            f"it needs version {__version__}; run in a clone of floatref: "
+            'pip install -e ".[batch]"',
         ),
         (is_older, f"has floatref 0.0.1, and we {__version__}; install the same there"),
     ],
