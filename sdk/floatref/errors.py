@@ -18,6 +18,10 @@ class InputError(FloatrefError, ValueError):
     """A file, channel, value or setting that cannot be used; the text says what to do."""
 
 
+class TargetExists(InputError):
+    """A target that exists and is not to be replaced."""
+
+
 def missing_extra(task: str, extra: str) -> InputError:
     """Return the error of a ``task`` that needs the packages of ``extra``, with how to get them.
 

@@ -106,7 +106,7 @@ def test_an_existing_target_is_refused_and_kept(recording: Recording, tmp_path: 
     for name, write in writers:
         write(tmp_path / name)
         before = listing(tmp_path)
-        with pytest.raises(InputError, match=f"{name}: exists; choose another name, or overwrite"):
+        with pytest.raises(InputError, match=f"{name}: exists; choose another name"):
             write(tmp_path / name)
         assert listing(tmp_path) == before
 
@@ -211,7 +211,7 @@ def test_a_target_that_appears_meanwhile_is_kept(tmp_path: Path) -> None:
 
 def test_a_target_can_be_checked_before_the_work(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x")
-    with pytest.raises(InputError, match="file: exists; choose another name, or overwrite it"):
+    with pytest.raises(InputError, match="file: exists; choose another name"):
         check_target(tmp_path / "file")
     with pytest.raises(InputError, match=r"its folder does not exist; make .*none first"):
         check_target(tmp_path / "none" / "p")
