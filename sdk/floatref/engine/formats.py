@@ -1,5 +1,6 @@
 """Choosing adapters and profile formats and calling them; their own failures as one line."""
 
+import shlex
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
@@ -137,12 +138,27 @@ def profile_of(path: Path) -> Profile:
     found = [
         form for form in plugins().profile_formats().values() if _recognise_profile(form, path)
     ]
+    if not found or RecordingDirectory().recognises(path):
+        _refuse_recording(path)
     if not found:
         return read_profile(path)
     if len(found) > 1:
         both = " and ".join(form.name for form in found)
         raise InputError(f"{path}: formats {both} both recognise it; remove one plug-in")
     return _read(found[0], path)
+
+
+def _refuse_recording(path: Path) -> None:
+    """Raise InputError for a recording: what to do is better known than what is wrong with it.
+
+    Any table of text may be a CSV profile, whose own errors say what is missing in it.
+    """
+    readers = [adapter.name for adapter in find_readers(path) if adapter.name != "csv"]
+    if readers:
+        raise InputError(
+            f"{path}: is a recording for adapter {' or '.join(readers)}, no profile; process it "
+            f"first: floatref process {shlex.quote(str(path))} --out PROFILE"
+        )
 
 
 def failure(form: ProfileFormat, path: Path, error: Exception) -> str:
