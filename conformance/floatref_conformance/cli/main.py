@@ -10,6 +10,7 @@ COMMANDS = {
     "list": ("floatref_conformance.cli.list:list_", "list the checks and the devices"),
     "scenario": ("floatref_conformance.cli.scenario:scenario", "list the keys of a scenario file"),
     "simulate": ("floatref_conformance.cli.simulate:simulate", "write a simulated recording"),
+    "sample": ("floatref_conformance.cli.sample:sample", "write data to try a command on"),
     "replay": ("floatref_conformance.cli.replay:replay", "run one kept case again"),
     "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),
     "explain": ("floatref_conformance.cli.explain:explain", "explain what a check asks, and why"),

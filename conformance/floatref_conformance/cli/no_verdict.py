@@ -16,6 +16,7 @@ MISSING = {
     "table": "no table",
     "faults": "no study",
     "simulate": "no recording",
+    "sample": "no sample",
     "selftest": "no counts",
     "certify": "no worksheet",
 }

@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 import floatref
+from floatref.files import write_recording
 from floatref_conformance.cli.main import main
 from floatref_conformance.devices import builtin
 
@@ -40,5 +41,6 @@ def test_what_a_pipeline_prints_is_not_in_the_report(monkeypatch, capsys, record
         return process(*arguments)
 
     monkeypatch.setattr(floatref, "process", printing)
-    builtin.make("temporal-basic").run(recording, tmp_path / "profile")
+    write_recording(recording, tmp_path / "run")
+    builtin.make("temporal-basic").run(tmp_path / "run", tmp_path / "profile")
     assert capsys.readouterr() == ("", "a plug-in at work\n")
