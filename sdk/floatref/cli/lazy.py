@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
+from io import TextIOWrapper
 from traceback import walk_tb
 from typing import Any
 
@@ -32,6 +33,16 @@ def open_outputs() -> None:
             mode = "w" if number else "r"
             # It stays open as long as the process.
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115
+
+
+def replace_unknown_letters() -> None:
+    """Have letters that an output's encoding lacks written as `?`; those of JSON are ASCII.
+
+    A pipe of Windows has the code page of the system, in which there is no σ, and often no dash.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")
 
 
 class UnusableInput(click.ClickException):
@@ -72,6 +83,7 @@ class LazyGroup(click.Group):
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
         """Parse the arguments, with `--help`; errors as those of `invoke`."""
         open_outputs()
+        replace_unknown_letters()
         with self._interruptible(None), _one_line():
             return super().make_context(*args, **kwargs)
 

@@ -111,7 +111,8 @@ def _explain_errors(path: Path, target: Path) -> Iterator[None]:
 
 def _settle(path: Path) -> None:
     """Flush the content to the disk before a name points to it."""
-    handle = os.open(path, os.O_RDONLY)
+    # Windows flushes only what is open for writing.
+    handle = os.open(path, os.O_RDWR)
     try:
         os.fsync(handle)
     finally:

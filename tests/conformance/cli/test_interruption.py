@@ -60,6 +60,7 @@ def recordings(tmp_path_factory):
     return folder
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 @pytest.mark.skipif(not PROC.is_dir(), reason="what a process has loaded is read from /proc")
 @pytest.mark.parametrize("name", LONG)

@@ -36,6 +36,8 @@ LOCAL = {
 }
 """Dask's configuration for a local cluster."""
 
+TEMPORARY = ("TMPDIR", "TEMP", "TMP")
+"""Variables that name the folder for temporary files; Windows has the last two."""
 LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
 
 
@@ -104,7 +106,7 @@ def _local(jobs: int | None) -> Iterator["Client"]:
                 processes=True,
                 threads_per_worker=1,
                 dashboard_address=None,
-                env={"TMPDIR": scratch},
+                env=dict.fromkeys(TEMPORARY, scratch),
                 silence_logs=logging.CRITICAL + 1,
             )
             stack.callback(cluster.close)
