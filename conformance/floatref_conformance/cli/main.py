@@ -15,7 +15,10 @@ COMMANDS = {
     "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),
     "explain": ("floatref_conformance.cli.explain:explain", "explain what a check asks, and why"),
     "selftest": ("floatref_conformance.cli.selftest:selftest", "test the suite itself"),
-    "certify": ("floatref_conformance.cli.certify:certify", "judge a profiler from recorded runs"),
+    "certify": (
+        "floatref_conformance.cli.certify.command:certify",
+        "judge a profiler from recorded runs",
+    ),
     "table": ("floatref_conformance.cli.table:table", "put the published tables beside ours"),
     "faults": ("floatref_conformance.cli.faults.command:faults", "put faults into drives"),
 }
