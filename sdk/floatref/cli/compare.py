@@ -85,7 +85,6 @@ def compare_report(
     interval = reference.interval_m
     settings = IriSettings().as_dict(interval) | {
         "max_offset_m": max_offset_m,
-        "placement_m": placement_m,
         "start_m": reference.start_m,
         "length_m": reference.length_m,
         "grid": "points of REFERENCE, PROFILE linear between its own",
@@ -182,9 +181,9 @@ def _print_placement(report: Mapping[str, Any]) -> None:
     placement_m, note = report["placement_m"], report["placement_note"]
     if placement_m:
         way = "farther along" if placement_m > 0 else "earlier"
-        click.echo(f"PROFILE lies {abs(placement_m):.2f} m {way}: moved there\n")
+        click.echo(f"Placement: PROFILE lies {abs(placement_m):.2f} m {way}, and is moved there\n")
     if note and placement_m is None:
-        click.echo(f"PROFILE is compared as it lies, its place is not sure: {note}\n")
+        click.echo(f"Placement: not sure, PROFILE is compared as it lies: {note}\n")
     elif note:
         click.echo(f"PROFILE: {note}\n")
 
