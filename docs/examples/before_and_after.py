@@ -7,6 +7,7 @@ of its README.md to a copy, and prints what comes out. It needs git, and `confor
 
 import argparse
 import importlib.util
+import json
 import os
 import re
 import subprocess
@@ -16,9 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from floatref import InputError, short_interval_roughness
-from floatref.measures import iri
-from floatref_conformance.proving_ground import scenario_of_run, simulate
+from floatref import InputError, Profile, ProfileTrack, read_recording, short_interval_roughness
 from floatref_reference.chapter_5.section_5_8 import captured
 
 HERE = Path(__file__).parent
@@ -30,11 +29,17 @@ ENDS_M = 60.0
 
 def drive():
     """Return acceleration, height and distance of one wheel path over the stop, in SI units."""
-    scenario = scenario_of_run(RUN, imu=False, gnss=False, tracks=("main",), rate_hz=RATE_HZ)
-    recording = simulate(scenario).recording
-    force = recording.channel("vertical_specific_force", "main").values
-    height = recording.channel("height", "main").values
-    return force - G, height, recording.channel("distance").values
+    scenario = {"format": "floatref-scenario/2", "manoeuvre": RUN, "iri_m_per_km": 1.8}
+    scenario |= {"imu": False, "gnss": False, "tracks": ["main"], "rate_hz": RATE_HZ}
+    with tempfile.TemporaryDirectory() as folder:
+        case, run = Path(folder, "case.json"), Path(folder, "run")
+        case.write_text(json.dumps(scenario), encoding="utf-8")
+        simulate = (sys.executable, "-m", "floatref_conformance", "simulate", case, "--out", run)
+        subprocess.run(simulate, check=True, stdout=subprocess.DEVNULL)
+        recording = read_recording(run)
+        names = (("vertical_specific_force", "main"), ("height", "main"), ("distance", None))
+        force, height, distance = (np.array(recording.channel(*name).values) for name in names)
+    return force - G, height, distance
 
 
 def changes(name):
@@ -85,7 +90,8 @@ def figures(profile):
     """Return peak of the roughness and IRI in m/km, without the ends of the run."""
     ends = round(ENDS_M / SPACING_M)
     inner = profile[ends:-ends]
-    return short_interval_roughness(inner, SPACING_M).max(), iri(inner, SPACING_M)
+    whole = Profile(SPACING_M, (ProfileTrack.of("main", inner),)).iri()["main"]
+    return short_interval_roughness(inner, SPACING_M).max(), whole.all_m_per_km
 
 
 def main():

@@ -153,6 +153,8 @@ def _refuse_recording(path: Path) -> None:
 
     Any table of text may be a CSV profile, whose own errors say what is missing in it.
     """
+    if not exists(path):
+        return
     readers = [adapter.name for adapter in find_readers(path) if adapter.name != "csv"]
     if readers:
         raise InputError(
