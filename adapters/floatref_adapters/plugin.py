@@ -3,17 +3,20 @@
 from collections.abc import Callable
 from typing import Any
 
-from floatref import Adapter, ProfileFormat, hookimpl
+from floatref import Adapter, ProfileFormat, RecordingFormat, hookimpl
 from floatref_adapters.formats.arrow.adapter import ArrowIpc, Parquet
 from floatref_adapters.formats.arrow.parquet_profile import ParquetProfile
 from floatref_adapters.formats.can_log.adapter import CanLog
 from floatref_adapters.formats.csv_table.adapter import CsvTable
 from floatref_adapters.formats.erd.erd_profile import Erd
 from floatref_adapters.formats.hdf5.adapter import Hdf5
+from floatref_adapters.formats.mcap_log.adapter import Mcap
 from floatref_adapters.formats.mdf4.adapter import Mdf4
+from floatref_adapters.formats.mdf4.mdf_writing import Mf4Recording
 from floatref_adapters.formats.nmea.adapter import Nmea
 from floatref_adapters.formats.novatel.adapter import NovAtel
 from floatref_adapters.formats.tdms.adapter import Tdms
+from floatref_adapters.formats.viewer_text.text_profile import ViewerText
 from floatref_adapters.views import (
     recording_to_pandas,
     recording_to_xarray,
@@ -25,7 +28,7 @@ from floatref_adapters.views import (
 @hookimpl
 def floatref_register_adapters(register: Callable[[Adapter], None]) -> None:
     """Register every adapter of this package."""
-    adapters = (CsvTable, Parquet, ArrowIpc, Hdf5, Mdf4, Tdms, Nmea, NovAtel, CanLog)
+    adapters = (CsvTable, Parquet, ArrowIpc, Hdf5, Mdf4, Tdms, Nmea, NovAtel, CanLog, Mcap)
     for adapter in adapters:
         register(adapter())
 
@@ -34,7 +37,15 @@ def floatref_register_adapters(register: Callable[[Adapter], None]) -> None:
 def floatref_register_profile_formats(register: Callable[[ProfileFormat], None]) -> None:
     """Register every format of profile files of this package."""
     register(Erd())
+    register(ViewerText())
     register(ParquetProfile())
+
+
+@hookimpl
+def floatref_register_recording_formats(register: Callable[[RecordingFormat], None]) -> None:
+    """Register every format that this package writes recordings in."""
+    register(Mcap())
+    register(Mf4Recording())
 
 
 @hookimpl

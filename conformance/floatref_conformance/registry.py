@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from floatref.errors import FloatrefError, InputError
+from floatref.values.display.similar_names import nearest, suggest
 from floatref_conformance.checks.catalogue import IDS, LeftOut, not_built
 from floatref_conformance.checks.interface import Check
 from floatref_conformance.devices.interface import Device, DeviceKind
@@ -27,8 +28,7 @@ class Registry:
         """
         prefix, colon, argument = spec.partition(":")
         if not colon or not argument or prefix not in self.kinds:
-            usages = ", ".join(kind.usage for kind in self.kinds.values())
-            raise InputError(f"device {spec}: not a kind that works here; these do: {usages}")
+            raise InputError(f"device {spec}: not a kind that works here; {self._meant(spec)}")
         try:
             return self.kinds[prefix].make(argument)
         except FloatrefError:
@@ -40,8 +40,28 @@ class Registry:
         """Return check ``id_``; InputError if it is unknown or not built yet."""
         if id_ in self.checks:
             return self.checks[id_]
-        state = "not built yet" if id_ in IDS else "unknown check"
-        raise InputError(f"check {id_}: {state}; these can be run: {', '.join(self.checks)}")
+        if id_ in IDS:
+            here = ", ".join(self.checks)
+            raise InputError(f"check {id_}: not built yet; these can be run: {here}")
+        known = suggest(id_, self.checks, "these can be run:")
+        raise InputError(f"check {id_}: unknown check; {known}")
+
+    def _meant(self, spec: str) -> str:
+        """Return a hint at the device that ``spec`` was meant to name, with its kind."""
+        prefix, _, argument = spec.partition(":")
+        usages = {kind.usage.partition(":")[0]: kind.usage for kind in self.kinds.values()}
+        named = [
+            f"{kind.prefix}:{entry.name}"
+            for kind in self.kinds.values()
+            for entry in kind.entries()
+            if entry.name == (argument or prefix)
+        ]
+        if named:
+            return f"did you mean {named[0]}?"
+        near = nearest(prefix, usages)
+        if near and argument:
+            return f"did you mean {near}:{argument}?"
+        return f"these do: {', '.join(usages.values())}"
 
     def select(self, ids: Sequence[str]) -> tuple[tuple[Check, ...], tuple[LeftOut, ...]]:
         """Return the checks to run, and every other check with the reason why it is not run.

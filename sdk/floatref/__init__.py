@@ -40,6 +40,10 @@ if TYPE_CHECKING:
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
+    from floatref.files.constant_interval import constant_interval as constant_interval
+    from floatref.files.constant_interval import count_decimals as count_decimals
+    from floatref.files.recording_directory import describe_installation as describe_installation
+    from floatref.files.recording_directory import setup_of as setup_of
     from floatref.interfaces.adapter import Adapter as Adapter
     from floatref.interfaces.adapter import NativeAdapter as NativeAdapter
     from floatref.interfaces.adapter import RecordingAdapter as RecordingAdapter
@@ -49,6 +53,7 @@ if TYPE_CHECKING:
     from floatref.interfaces.pipeline import Context as Context
     from floatref.interfaces.pipeline import Pipeline as Pipeline
     from floatref.interfaces.profile_format import ProfileFormat as ProfileFormat
+    from floatref.interfaces.recording_format import RecordingFormat as RecordingFormat
     from floatref.interfaces.stage_calls import Setting as Setting
     from floatref.interfaces.stage_calls import StageCall as StageCall
     from floatref.mapping import read_native as read_native
@@ -145,6 +150,7 @@ _PUBLIC = {
     "Reading": "vehicle_response",
     "Recording": "values.recording",
     "RecordingAdapter": "interfaces.adapter",
+    "RecordingFormat": "interfaces.recording_format",
     "RoadPrior": "estimators.road_prior",
     "Rows": "values.native",
     "Setting": "interfaces.stage_calls",
@@ -166,7 +172,10 @@ _PUBLIC = {
     "answers": "interfaces.markers",
     "channel_noise": "measures",
     "check_readings": "vehicle_response",
+    "constant_interval": "files.constant_interval",
+    "count_decimals": "files.constant_interval",
     "default_gains": "vehicle_response",
+    "describe_installation": "files.recording_directory",
     "high_pass": "measures",
     "hold_error_of": "vehicle_response",
     "hookimpl": "interfaces.markers",
@@ -181,6 +190,7 @@ _PUBLIC = {
     "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",
+    "setup_of": "files.recording_directory",
     "short_interval_roughness": "measures",
     "stage_names": "engine.lookup",
     "write_profile": "files",

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import floatref
+from floatref.engine.advice.by_sensors import pipelines_by_sensors
 from floatref.engine.plugins import plugins
 from floatref.measures import high_pass
 from floatref_conformance.proving_ground import scenario_of_run, simulate
@@ -61,3 +62,13 @@ def test_every_pipeline_has_a_row_with_the_section_of_its_summary() -> None:
     for name, section in rows.items():
         summary = plugins().pipelines()[name].summary
         assert (f"(section {section})" in summary) == (section != "beyond")
+
+
+def test_the_table_by_sensors_is_what_auto_takes() -> None:
+    table = PAGE.partition("| recorded | `auto` takes | at stops |\n|---|---|---|\n")[2]
+    rows = table.partition("\n\n")[0].splitlines()
+    answers = pipelines_by_sensors(plugins().pipelines())
+    for row, answer in zip(rows, answers, strict=True):
+        taken = f"`{answer.taken}`" if answer.taken else "no pipeline"
+        at_stops = ("yes" if answer.through_stops else "no") if answer.taken else "–"
+        assert row == f"| {answer.sensors} | {taken} | {at_stops} |"

@@ -64,6 +64,7 @@ def test_core_and_extras_are_those_that_users_script_against() -> None:
         "adapters",
         "conformance",
         "batch",
+        "gis",
         "dev",
     }
     assert set(PROJECT["scripts"]) == {"floatref", "conformance"}

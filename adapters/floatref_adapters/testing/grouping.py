@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, Recording, UniformClock
+from floatref_adapters.shared.clock_groups import group_by_clock
 from floatref_adapters.shared.simplest_ratio import find_simplest
 
 
@@ -33,16 +34,8 @@ class ClockGroup:
 
 def by_clock(recording: Recording) -> list[ClockGroup]:
     """Return the channels of ``recording`` in the order of their clocks."""
-    groups: dict[object, list[Channel]] = {}
-    for channel in recording.channels:
-        groups.setdefault(_key(channel), []).append(channel)
-    return [_group(f"group {k}", channels) for k, channels in enumerate(groups.values())]
-
-
-def _key(channel: Channel) -> object:
-    if isinstance(channel.clock, UniformClock):
-        return channel.clock.rate, channel.clock.start_s, channel.values.size
-    return channel.clock.times_s.tobytes()
+    groups = enumerate(group_by_clock(recording))
+    return [_group(f"group {k}", channels) for k, channels in groups]
 
 
 def _group(name: str, channels: Sequence[Channel]) -> ClockGroup:

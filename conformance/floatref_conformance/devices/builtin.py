@@ -11,6 +11,7 @@ from typing import Any
 import floatref
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 from floatref_conformance.classes import DeviceClass
@@ -86,7 +87,8 @@ def make(pipeline: str) -> BuiltinDevice:
     """Return the device of ``pipeline``; InputError if floatref has no such pipeline."""
     names = tuple(floatref.pipelines())
     if pipeline not in names:
-        raise InputError(f"device builtin:{pipeline}: unknown pipeline; known: {', '.join(names)}")
+        known = suggest(pipeline, names, "known:")
+        raise InputError(f"device builtin:{pipeline}: unknown pipeline; {known}")
     return BuiltinDevice(pipeline)
 
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import did_you_mean
 from floatref_conformance.faults.listed import ListedFault
 from floatref_conformance.faults.of_accelerometers import ACCELEROMETER_FAULTS
 from floatref_conformance.faults.of_encoders import ENCODER_FAULTS
@@ -30,9 +31,6 @@ FAULTS: Mapping[str, ListedFault] = MappingProxyType(
 def find_fault(name: str) -> ListedFault:
     """Return the fault called ``name``; InputError if the list has no such fault."""
     if name not in FAULTS:
-        from difflib import get_close_matches
-
-        near = get_close_matches(name, FAULTS, n=1)
-        hint = f"did you mean {near[0]}?" if near else "conformance faults --list names them"
+        hint = did_you_mean(name, FAULTS) or "conformance faults --list names them"
         raise InputError(f"fault {name}: unknown; {hint}")
     return FAULTS[name]

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache, partial
 
 from floatref.errors import FloatrefError, InputError
+from floatref.values.display.similar_names import suggest
 from floatref.values.recording import Recording
 from floatref_conformance.devices.builtin import make, process_with_warnings
 from floatref_conformance.faults.fault_list import FAULTS, find_fault
@@ -71,7 +72,7 @@ class StudySettings:
             make(name)
         for name in self.drives:
             if name not in DRIVES:
-                raise InputError(f"drive {name}: unknown; known: {', '.join(DRIVES)}")
+                raise InputError(f"drive {name}: unknown; {suggest(name, DRIVES, 'known:')}")
 
 
 @dataclass

@@ -6,13 +6,13 @@ the tolerance in double and in single precision.
 
 import json
 from collections.abc import Iterator
-from difflib import get_close_matches
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 
 FORMAT = "floatref-golden/1"
 SUFFIX = ".json"
@@ -53,7 +53,6 @@ def _stored_files() -> Iterator[Traversable]:
 def _file(name: str) -> Traversable:
     known = names()
     if name not in known:
-        near = get_close_matches(name, known, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
+        hint = suggest(name, known, "known:")
         raise InputError(f"golden vector {name}: unknown; {hint}")
     return files(__name__) / f"{name}{SUFFIX}"

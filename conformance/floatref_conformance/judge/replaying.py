@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.checks.interface import Check
@@ -52,7 +53,7 @@ def refuse_foreign(check: Check, case: Case) -> None:
     known = sorted({name for one in cases for name in one.variation})
     for name in case.variation:
         if name not in known:
-            others = f"known: {', '.join(known)}" if known else f"{check.id} has no variation"
+            others = suggest(name, known, "known:") if known else f"{check.id} has no variation"
             raise InputError(f"variation {name}: unknown; {others}")
 
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.builtin import BuiltinDevice, process_quietly
@@ -51,8 +52,8 @@ def make(name: str) -> Device:
             return Mutant(deepcopy(mutation))
     if name in [hostile.name for hostile in HOSTILE]:
         return hostile_device(name)
-    known = ", ".join(entry.name for entry in entries())
-    raise InputError(f"device mutant:{name}: unknown mutant; known: {known}")
+    known = suggest(name, [entry.name for entry in entries()], "known:")
+    raise InputError(f"device mutant:{name}: unknown mutant; {known}")
 
 
 def entries() -> tuple[DeviceEntry, ...]:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.devices.executable import ExecDevice
 
 PIPELINE = "temporal-adaptive-hpf-spatial-backward"
@@ -38,8 +39,8 @@ def hostile_device(name: str) -> ExecDevice:
     for hostile in HOSTILE:
         if hostile.name == name:
             return ExecDevice(hostile.argv, Path.cwd(), HANG_S if name == "hang" else None)
-    known = ", ".join(hostile.name for hostile in HOSTILE)
-    raise InputError(f"hostile program {name}: unknown; known: {known}")
+    known = suggest(name, [hostile.name for hostile in HOSTILE], "known:")
+    raise InputError(f"hostile program {name}: unknown; {known}")
 
 
 def main(name: str) -> None:

@@ -2,13 +2,13 @@
 
 import re
 from dataclasses import Field, field
-from difflib import get_close_matches
 from functools import cache
 from reprlib import repr as shortened
 from typing import Any, TypeVar
 
 from floatref.errors import InputError
 from floatref.files import read_schema
+from floatref.values.display.similar_names import suggest
 
 T = TypeVar("T")
 
@@ -29,8 +29,7 @@ def number(default: T, lowest: float, highest: float, meaning: str) -> T:
 def refuse_unknown(name: str, value: str, known: tuple[str, ...]) -> None:
     """Raise InputError unless ``value`` is among ``known``."""
     if value not in known:
-        near = get_close_matches(value[:64], known, n=1)
-        hint = f"did you mean {near[0]}?" if near else f"choose from {', '.join(known)}"
+        hint = suggest(value, known, "choose from")
         raise InputError(f"{name} {shortened(value)}: unknown; {hint}")
 
 

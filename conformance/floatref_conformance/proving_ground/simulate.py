@@ -7,6 +7,7 @@ from importlib.metadata import version
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
 from floatref_conformance.proving_ground.parked import park
@@ -89,7 +90,8 @@ def stationary(
     ``kind`` is "quiescent" or "bounce"; the truth is flat but for the plate.
     """
     if kind not in STATIONARY:
-        raise InputError(f"stationary test {kind!r}: unknown; choose from {', '.join(STATIONARY)}")
+        known = suggest(kind, STATIONARY, "choose from")
+        raise InputError(f"stationary test {kind!r}: unknown; {known}")
     return simulate(Scenario(seed=seed, manoeuvre=kind, rate_hz=rate_hz, speed_kmh=speed_kmh))
 
 

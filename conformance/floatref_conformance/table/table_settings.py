@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.devices import builtin
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
@@ -66,7 +66,5 @@ def choose(kind: str, names: Sequence[str], known: Sequence[str]) -> tuple[str, 
     """
     for name in names:
         if name not in known:
-            near = get_close_matches(name, known, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"choose from {', '.join(known)}"
-            raise InputError(f"{kind} {name}: unknown; {hint}")
+            raise InputError(f"{kind} {name}: unknown; {suggest(name, known, 'choose from')}")
     return tuple(name for name in known if name in names or not names)

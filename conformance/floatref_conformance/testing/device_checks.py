@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import pytest
 
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.checks.verdict import Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
@@ -85,8 +86,8 @@ class DeviceChecks:
         if isinstance(self.checks, str):
             fault = f"{self.checks!r} is a string; write ({self.checks!r},)"
         elif unknown := [id_ for id_ in self.checks if id_ not in registry.checks]:
-            known = ", ".join(registry.checks)
-            fault = f"unknown check {', '.join(map(str, unknown))}; these can be run: {known}"
+            known = suggest(unknown[0], registry.checks, "these can be run:")
+            fault = f"unknown check {', '.join(map(str, unknown))}; {known}"
         else:
             return
         raise pytest.Collector.CollectError(f"{type(self).__name__}.checks: {fault}")

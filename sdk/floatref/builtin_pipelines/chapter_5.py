@@ -1,5 +1,7 @@
 """The built-in pipelines: every algorithm of chapter 5 by name, with its settings."""
 
+from dataclasses import replace
+
 from floatref.builtin_pipelines import basic_steps
 from floatref.builtin_pipelines import spatial_steps as spatial
 from floatref.builtin_pipelines import temporal_steps as temporal
@@ -64,7 +66,7 @@ SPATIAL_HPF: dict[str, Answer] = {
     "spatial_finish": spatial.finish_backward,
 }
 
-PIPELINES = (
+_PRINTED = (
     Pipeline("temporal-basic", "temporal", "no error suppression (section 5.3)", BASIC),
     Pipeline(
         "temporal-mean-removal",
@@ -162,3 +164,5 @@ PIPELINES = (
         },
     ),
 )
+PIPELINES = tuple(replace(pipeline, through_stops=False) for pipeline in _PRINTED)
+"""At a stop they lose the road: their integrals drift there, or are held back with the road."""

@@ -85,7 +85,12 @@ def _readings(plan: Plan) -> tuple[str, ...]:
 
 
 def _pipeline(
-    name: str, summary: str, plan: Plan, estimator: Estimator = KalmanSmoother, **settings: float
+    name: str,
+    summary: str,
+    plan: Plan,
+    estimator: Estimator = KalmanSmoother,
+    through_stops: bool = True,
+    **settings: float,
 ) -> Pipeline:
     return Pipeline(
         name,
@@ -96,6 +101,7 @@ def _pipeline(
         channels=IMU,
         readings=_readings(plan),
         capabilities=("imu", "gnss") if plan.gnss else ("imu",),
+        through_stops=through_stops,
     )
 
 
@@ -105,6 +111,7 @@ KALMAN = (
         "IMU and GNSS, filter alone (section 6.6.1)",
         Plan(reflects=False),
         KalmanFilter,
+        through_stops=False,
         drift_reach_m=105.91,
         acceleration_walk=6.32e-6,
         lean_sigma_rad=1e-9,
@@ -114,6 +121,8 @@ KALMAN = (
         "kalman-smoother",
         "IMU and GNSS, smoothed (section 6.6.2)",
         Plan(reflects=False),
+        # The GNSS height drifts while the vehicle is stationary, and this one follows it.
+        through_stops=False,
     ),
     _pipeline(
         "kalman-smoother-reflection",

@@ -14,6 +14,7 @@ from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.markers import hookimpl
 from floatref.interfaces.pipeline import Answer, Context, Pipeline, stages_of
 from floatref.interfaces.profile_format import ProfileDirectory, ProfileFormat, ProfileTable
+from floatref.interfaces.recording_format import RecordingFolder, RecordingFormat
 from floatref.interfaces.stage_calls import StageCall
 from floatref.stages.protocol import Stage
 from floatref.values.profile import Profile
@@ -56,6 +57,13 @@ class Defaults:
         """Register the profile directory and the CSV table."""
         register(ProfileDirectory())
         register(ProfileTable())
+
+    @hookimpl
+    def floatref_register_recording_formats(
+        self, register: Callable[[RecordingFormat], None]
+    ) -> None:
+        """Register the recording directory."""
+        register(RecordingFolder())
 
     @hookimpl
     def floatref_register_stages(

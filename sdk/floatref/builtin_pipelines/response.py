@@ -210,7 +210,15 @@ OBSERVER: dict[str, float | None] = {**SETTINGS, "position_gain_hz": 20.0, "rate
 def _pipeline(
     name: str, summary: str, settings: dict[str, float | None], answers: dict[str, Answer]
 ) -> Pipeline:
-    return Pipeline(name, "response", summary, settings, answers, capabilities=("response",))
+    return Pipeline(
+        name,
+        "response",
+        summary,
+        settings,
+        answers,
+        capabilities=("response",),
+        through_stops=False,
+    )
 
 
 RESPONSE = (

@@ -87,6 +87,7 @@ ROAD_PRIOR = (
             "temporal_estimate": _estimate,
         },
         signed=EXPECTED,
+        through_stops=True,
     ),
 )
 
@@ -147,6 +148,7 @@ ROAD_PRIOR_SPATIAL = (
             "spatial_estimate": _estimate_triggered,
         },
         signed=EXPECTED,
+        through_stops=True,
     ),
 )
 
@@ -192,5 +194,6 @@ ROAD_PRIOR_IMU = (
         channels=IMU,
         capabilities=("imu",),
         signed=EXPECTED,
+        through_stops=True,
     ),
 )

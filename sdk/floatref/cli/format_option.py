@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from floatref.cli.choices import OneOf
 from floatref.engine.plugins import plugins
 
 if TYPE_CHECKING:
@@ -18,10 +19,18 @@ class FormatName(NameType):
 
     name = "format"
 
+    def __init__(self, recordings: bool = False) -> None:
+        """Take the names of profile formats, with ``recordings`` those of recordings too."""
+        self._recordings = recordings
+
     def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
         """Return the names as shown in the help."""
-        return f"[{'|'.join(plugins().profile_formats())}]"
+        return f"[{'|'.join(self._names())}]"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return ``value`` if it is the name of a format."""
-        return str(click.Choice(list(plugins().profile_formats())).convert(value, param, ctx))
+        return str(OneOf(self._names()).convert(value, param, ctx))
+
+    def _names(self) -> list[str]:
+        recordings = plugins().recording_formats() if self._recordings else {}
+        return [*plugins().profile_formats(), *recordings]

@@ -16,6 +16,7 @@ from floatref.cli.printing import (
 UNITS = {"si": "m/km", "us": "in/mi"}
 SUFFIXES = {"si": "m_per_km", "us": "in_per_mi"}
 DIGITS = {"si": 3, "us": 1}
+EVERY_POINT = "the IRI of all points has the others too"
 Figures = Mapping[str, Any]
 
 
@@ -35,8 +36,20 @@ def print_iri_tables(report: Figures, units: str) -> None:
         columns = ("track", "start m", "length m", *table.columns)
         print_table("Segments", columns, [row for t in tracks for row in table.segment_rows(t)])
     some = any(each["counted_share"] < 1.0 for each in _all_figures(report))
-    explain_mark(some, "the IRI of all points has the others too")
+    explain_mark(some, EVERY_POINT)
     print_settings(report["settings"])
+
+
+def print_track_table(title: str, length_m: float, tracks: Sequence[Figures]) -> None:
+    """Print the figures of the wheel paths of one profile under ``title``, in m/km, and the mark.
+
+    ``tracks`` are the figures of `figures_of`, each with its name.
+    """
+    table = _IriTable("si", with_interval=False)
+    length = number(length_m, 2)
+    rows = [[_name(t), length, *table.cells(t), number(t["invalid_m"], 2)] for t in tracks]
+    print_table(title, ("track", "length m", *table.columns, "invalid m"), rows)
+    explain_mark(any(t["counted_share"] < 1.0 for t in tracks), EVERY_POINT)
 
 
 class _IriTable:

@@ -11,6 +11,7 @@ from typing import Any
 
 import click
 
+from floatref.cli.choices import hint_at_choices, hint_behind
 from floatref.errors import FloatrefError, TargetExists
 
 INTERRUPTED = 130
@@ -73,7 +74,19 @@ class LazyGroup(click.Group):
         command = getattr(import_module(module), attribute)
         if not isinstance(command, click.Command):
             raise TypeError(f"{module}:{attribute} is not a command")
+        hint_at_choices(command)
         return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the sub-command that ``args`` begin with; UsageError, with the one meant."""
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError as error:
+            raise click.UsageError(
+                f"{error.message}{hint_behind(args[0], self._lazy)}", ctx
+            ) from error
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the sub-commands without importing them."""

@@ -1,4 +1,4 @@
-"""`floatref pipelines` and `floatref adapters`: lists of the available ones."""
+"""`floatref adapters`: the adapters and the formats of profile files."""
 
 import click
 
@@ -6,45 +6,25 @@ from floatref.cli.printing import print_json, print_table
 from floatref.engine.plugins import plugins
 
 
-@click.command("pipelines")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def pipelines(as_json: bool) -> None:
-    """List the pipelines: their architecture, what they do, and their settings."""
-    known = plugins().pipelines().values()
-    if as_json:
-        items = [
-            {
-                "name": pipeline.name,
-                "architecture": pipeline.architecture,
-                "summary": pipeline.summary,
-                "settings": dict(pipeline.settings),
-            }
-            for pipeline in known
-        ]
-        print_json({"pipelines": items, "warnings": plugins().reports})
-        return
-    rows = [[pipeline.name, pipeline.architecture, pipeline.summary] for pipeline in known]
-    print_table("Pipelines", ("pipeline", "architecture", "what it does"), rows, numbers=False)
-    _warn()
-
-
 @click.command("adapters")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def adapters(as_json: bool) -> None:
-    """List the adapters, which read native formats, and the formats of profile files."""
+    """List the adapters, which read native formats, and the formats of profiles and recordings."""
     known, formats = plugins().adapters().values(), plugins().profile_formats().values()
+    written = plugins().recording_formats().values()
     if as_json:
         items = [{"name": adapter.name, "summary": adapter.summary} for adapter in known]
-        kinds = [{"name": f.name, "suffix": f.suffix, "summary": f.summary} for f in formats]
-        print_json({"adapters": items, "formats": kinds, "warnings": plugins().reports})
+        kinds, recordings = (
+            [{"name": f.name, "suffix": f.suffix, "summary": f.summary} for f in found]
+            for found in (formats, written)
+        )
+        lists = {"adapters": items, "formats": kinds, "recording_formats": recordings}
+        print_json({**lists, "warnings": plugins().reports})
         return
     rows = [[adapter.name, adapter.summary] for adapter in known]
     print_table("Adapters", ("adapter", "what it reads"), rows, numbers=False)
-    rows = [[f.name, f.suffix or "–", f.summary] for f in formats]
-    print_table("Profile formats", ("format", "suffix", "what it is"), rows, numbers=False)
-    _warn()
-
-
-def _warn() -> None:
+    for title, found in (("Profile formats", formats), ("Recording formats", written)):
+        rows = [[f.name, f.suffix or "–", f.summary] for f in found]
+        print_table(title, ("format", "suffix", "what it is"), rows, numbers=False)
     for line in plugins().reports:
         click.echo(f"Warning: {line}", err=True)

@@ -17,8 +17,14 @@ COMMANDS = {
         "a straightedge and a profilograph on a profile",
     ),
     "compare": ("floatref.cli.compare:compare", "agreement of a profile with a reference"),
-    "convert": ("floatref.cli.convert:convert", "write a profile in another format"),
-    "pipelines": ("floatref.cli.listings:pipelines", "list the pipelines"),
+    "convert": (
+        "floatref.cli.convert:convert",
+        "write a profile or a recording in another format",
+    ),
+    "pipelines": (
+        "floatref.cli.pipelines.command:pipelines",
+        "which pipeline for which sensors, and all of them",
+    ),
     "adapters": ("floatref.cli.listings:adapters", "list the adapters and the profile formats"),
     "channels": (
         "floatref.cli.channels:channels",

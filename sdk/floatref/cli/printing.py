@@ -2,10 +2,10 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from math import floor
-from typing import Any
+from typing import Any, Literal
 
 import click
 from rich import box
@@ -41,15 +41,23 @@ def _format_value(value: object) -> str:
 
 
 def print_table(
-    title: str, columns: Sequence[str], rows: Iterable[Sequence[str]], numbers: bool = True
+    title: str,
+    columns: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    numbers: bool = True,
+    whole: Collection[str] = (),
 ) -> None:
-    """Print ``rows`` under ``title``; with ``numbers`` all columns but the first align right."""
+    """Print ``rows`` under ``title``; with ``numbers`` all columns but the first align right.
+
+    Cells of the columns named in ``whole`` are not broken, however narrow the terminal is.
+    """
     terminal = sys.stdout.isatty()
     console = Console(file=sys.stdout, width=None if terminal else PIPED_WIDTH, emoji=False)
     style = box.SIMPLE_HEAD if terminal else None
     table = Table(box=style)
     for index, name in enumerate(columns):
-        table.add_column(Text(name), justify="right" if numbers and index else "left")
+        justify: Literal["right", "left"] = "right" if numbers and index else "left"
+        table.add_column(Text(name), justify=justify, no_wrap=name in whole)
     for row in rows:
         table.add_row(*map(Text, row))
     with console.capture() as printed:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
-from math import nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +14,8 @@ from floatref.cli.diagnostics import (
     report_innovations,
 )
 from floatref.cli.format_option import FormatName
-from floatref.cli.printing import number, print_json, print_settings, print_table, progress_bar
+from floatref.cli.iri_tables import print_track_table
+from floatref.cli.printing import print_json, print_settings, progress_bar
 from floatref.engine.choosing import AUTO
 from floatref.engine.formats import format_of, write_as
 from floatref.errors import InputError
@@ -124,31 +124,25 @@ def _report(profile: Profile, out: Path, warnings: tuple[str, ...]) -> dict[str,
         "profile": str(out),
         "interval_m": profile.interval_m,
         "length_m": profile.length_m,
-        "tracks": [_track_report(t, profile.interval_m, lines) for t in profile.tracks],
+        "tracks": [_track_report(t, profile, lines) for t in profile.tracks],
         "warnings": lines,
     }
 
 
-def _track_report(track: ProfileTrack, interval_m: float, warnings: list[str]) -> dict[str, Any]:
-    from floatref.measures import iri
+def _track_report(track: ProfileTrack, profile: Profile, warnings: list[str]) -> dict[str, Any]:
+    from floatref.cli.iri import figures_of, no_figures
 
     try:
-        value = iri(track.elevation, interval_m)
+        figures = figures_of(track, profile)
     except InputError as error:
         # A profile too short or too coarse for the IRI car is still a valid result.
         warnings.append(f"track {track.name}: no IRI: {error}")
-        value = nan
-    invalid_m = float((~track.valid).sum()) * interval_m
-    return {"name": track.name, "iri_m_per_km": value, "invalid_m": invalid_m}
+        figures = no_figures(float((~track.valid).sum()) * profile.interval_m)
+    return {"name": track.name, **figures}
 
 
 def _print_tables(report: dict[str, Any], profile: Profile) -> None:
-    length = number(report["length_m"], 2)
-    rows = [
-        [t["name"], length, number(t["iri_m_per_km"]), number(t["invalid_m"], 2)]
-        for t in report["tracks"]
-    ]
-    print_table(report["profile"], ("track", "length m", "IRI m/km", "invalid m"), rows)
+    print_track_table(report["profile"], report["length_m"], report["tracks"])
     if report["reason"]:
         click.echo(f"Pipeline {report['pipeline']}, since {report['reason']}")
     for line in report["warnings"]:

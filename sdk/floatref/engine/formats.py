@@ -1,7 +1,7 @@
 """Choosing adapters and profile formats and calling them; their own failures as one line."""
 
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from os.path import exists
@@ -13,6 +13,7 @@ from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import read_profile, write_profile
 from floatref.files.atomic import replace_file
 from floatref.files.sources import name_errors
+from floatref.files.withheld_formats import refuse_to_read, refuse_to_write
 from floatref.interfaces.adapter import (
     Adapter,
     NativeAdapter,
@@ -20,6 +21,7 @@ from floatref.interfaces.adapter import (
     RecordingDirectory,
 )
 from floatref.interfaces.profile_format import ProfileDirectory, ProfileFormat
+from floatref.values.display.similar_names import hint_at, suggest
 from floatref.values.native import NativeFile
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
@@ -55,7 +57,7 @@ def get_reader(name: str) -> Adapter:
     """Return the adapter called ``name``; InputError if it is unknown."""
     known = plugins().adapters()
     if name not in known:
-        raise InputError(f"adapter {name}: unknown; there are {', '.join(known)}")
+        raise InputError(f"adapter {name}: unknown; {suggest(name, known)}")
     return known[name]
 
 
@@ -141,6 +143,7 @@ def profile_of(path: Path) -> Profile:
     if not found or RecordingDirectory().recognises(path):
         _refuse_recording(path)
     if not found:
+        refuse_to_read(path)
         return read_profile(path)
     if len(found) > 1:
         both = " and ".join(form.name for form in found)
@@ -163,10 +166,10 @@ def _refuse_recording(path: Path) -> None:
         )
 
 
-def failure(form: ProfileFormat, path: Path, error: Exception) -> str:
-    """Return one line on an ``error`` that ``form`` raised."""
+def failure(name: str, path: Path, error: Exception) -> str:
+    """Return one line on an ``error`` that the format called ``name`` raised."""
     reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    return f"format {form.name}: {path}: {reason}"
+    return f"format {name}: {path}: {reason}"
 
 
 def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
@@ -176,7 +179,7 @@ def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
         # A name that cannot be opened: reading it raises the error.
         return False
     except Exception as error:
-        plugins().reports.append(failure(form, path, error))
+        plugins().reports.append(failure(form.name, path, error))
         return False
 
 
@@ -186,7 +189,7 @@ def _read(form: ProfileFormat, path: Path) -> Profile:
     except (FloatrefError, OSError):
         raise
     except Exception as error:
-        raise PluginError(failure(form, path, error)) from error
+        raise PluginError(failure(form.name, path, error)) from error
     if not isinstance(profile, Profile):
         raise PluginError(f"format {form.name}: {path}: gave no profile")
     return profile
@@ -209,7 +212,7 @@ def format_of(out: Path, name: str | None = None) -> ProfileFormat:
 def _choose(out: Path, name: str | None) -> ProfileFormat:
     known = plugins().profile_formats()
     if name is not None and name not in known:
-        raise InputError(f"format {name}: unknown; there are {', '.join(known)}")
+        raise InputError(f"format {name}: unknown; {suggest(name, known)}")
     if name is not None:
         return known[name]
     # A suffix has letters only: names of runs hold numbers, as in stop_0.20g.
@@ -219,10 +222,11 @@ def _choose(out: Path, name: str | None) -> ProfileFormat:
         both = " and ".join(form.name for form in found)
         raise InputError(f"{out}: suffix {suffix} is that of {both}; choose with --format")
     if not found:
-        suffixes = ", ".join(form.suffix for form in known.values() if form.suffix)
+        refuse_to_write(out)
+        suffixes = [form.suffix for form in known.values() if form.suffix]
         raise InputError(
-            f"{out}: suffix {out.suffix} is no format; use {suffixes}, no suffix, or --format "
-            f"with one of {', '.join(known)}"
+            f"{out}: suffix {out.suffix} is no format; use {', '.join(suffixes)}, no suffix, or "
+            f"--format with one of {', '.join(known)}{hint_at(suffix, suffixes)}"
         )
     return found[0]
 
@@ -236,14 +240,24 @@ def write_as(form: ProfileFormat, profile: Profile, out: Path, overwrite: bool =
     if isinstance(form, ProfileDirectory):
         write_profile(profile, out, overwrite)
         return
+    write_file(form.name, out, lambda beside: form.write(profile, beside), overwrite)
+
+
+def write_file(
+    name: str, out: Path, write: Callable[[Path], None], overwrite: bool = False
+) -> None:
+    """Let ``write``, of the format called ``name``, make a file beside ``out``, then rename it.
+
+    Raises InputError as ``write`` does, with the name of ``out``, and PluginError for its others.
+    """
     with replace_file(out, overwrite) as beside:
         try:
-            form.write(profile, beside)
+            write(beside)
         except InputError as error:
             raise InputError(str(error).replace(str(beside), str(out))) from error
         except (FloatrefError, OSError):
             raise
         except Exception as error:
-            raise PluginError(failure(form, out, error)) from error
+            raise PluginError(failure(name, out, error)) from error
         if not beside.is_file():
-            raise PluginError(f"format {form.name}: {out}: wrote no file")
+            raise PluginError(f"format {name}: {out}: wrote no file")

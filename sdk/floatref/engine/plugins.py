@@ -1,8 +1,6 @@
 """Loading plug-ins, and calling their hooks, one plug-in at a time."""
 
-import os
-import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -19,6 +17,7 @@ from floatref.engine.registration import (
     check_pipeline,
     check_profile,
     check_profile_format,
+    check_recording_format,
     check_scopes,
     check_stage,
     check_stages,
@@ -30,27 +29,14 @@ from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.interfaces import hookspecs
 from floatref.interfaces.adapter import Adapter
 from floatref.interfaces.drop_out import DropOut
+from floatref.interfaces.hook_trace import list_names, trace_hook
 from floatref.interfaces.markers import PROJECT
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.interfaces.profile_format import ProfileFormat
+from floatref.interfaces.recording_format import RecordingFormat
 from floatref.stages.protocol import Stage
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile
-
-VARIABLE = "FLOATREF_TRACE"
-HOOKS = frozenset({"hooks", "1"})
-
-
-def trace_hook(plugin: str, hook: str, outcome: str) -> None:
-    """Print which plug-in was called, for which hook, and the outcome, if hooks are traced."""
-    words = {word.strip() for word in os.environ.get(VARIABLE, "").split(",")}
-    if words & HOOKS:
-        print(f"hook {hook}: plug-in {plugin}: {outcome}", file=sys.stderr)
-
-
-def list_names(names: Iterable[str]) -> str:
-    """Return ``names`` as one text for a trace."""
-    return ", ".join(names) or "nothing"
-
 
 T = TypeVar("T")
 BUILT_IN = "floatref"
@@ -140,6 +126,10 @@ class Plugins:
         """Return every format of profile files by name."""
         return self.collect("floatref_register_profile_formats", check_profile_format)
 
+    def recording_formats(self) -> dict[str, RecordingFormat]:
+        """Return every format that recordings are written in, by name."""
+        return self.collect("floatref_register_recording_formats", check_recording_format)
+
     def pipeline(self, name: str) -> Pipeline:
         """Return the pipeline called ``name``; InputError if it is unknown."""
         known = self.pipelines()
@@ -147,7 +137,7 @@ class Plugins:
             for line in unknown_scopes(self._manager, known):
                 self._report(line)
         if name not in known:
-            raise InputError(f"pipeline {name}: unknown; there are {', '.join(known)}")
+            raise InputError(f"pipeline {name}: unknown; {suggest(name, known)}")
         return known[name]
 
     def ask(self, context: Context) -> Sequence[Stage]:

@@ -12,6 +12,7 @@ from floatref.errors import FloatrefError, PluginError
 from floatref.interfaces.markers import SCOPE
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.interfaces.profile_format import ProfileDirectory
+from floatref.interfaces.recording_format import RecordingFolder
 from floatref.interfaces.stage_calls import StageCall
 from floatref.stages.protocol import Stage
 from floatref.values.profile import Profile
@@ -52,13 +53,22 @@ def check_adapter(adapter: Any) -> str:
 
 def check_profile_format(form: Any) -> str:
     """Return the name of ``form``; TypeError if it cannot be a format of profile files."""
+    return _check_format(form, ("recognises", "read", "write"))
+
+
+def check_recording_format(form: Any) -> str:
+    """Return the name of ``form``; TypeError if it cannot be a format of recording files."""
+    return _check_format(form, ("write",))
+
+
+def _check_format(form: Any, methods: Sequence[str]) -> str:
     kind = type(form).__name__
-    for method in ("recognises", "read", "write"):
+    for method in methods:
         if not callable(getattr(form, method, None)):
             raise TypeError(f"{kind} has no method {method}")
     suffix = getattr(form, "suffix", None)
-    named = isinstance(suffix, str) and re.fullmatch(r"\.[a-z]+", suffix)
-    if not (named or isinstance(form, ProfileDirectory)):
+    named = isinstance(suffix, str) and re.fullmatch(r"\.[a-z]+[0-9]?", suffix)
+    if not (named or isinstance(form, ProfileDirectory | RecordingFolder)):
         raise TypeError(f"{kind}: suffix {suffix!r} is not a point and small letters, as in .erd")
     return _describe(form)
 

@@ -140,9 +140,14 @@ def _describe(recording: Recording) -> tuple[dict[str, Any], dict[str, FloatArra
     """Return the JSON document of ``recording`` and the samples of every file it names."""
     samples: dict[str, FloatArray] = {}
     entries = _entries(recording, samples)
+    document = {"format": FORMAT, **describe_installation(recording), "channels": entries}
+    return plain(document, "recording"), samples
+
+
+def describe_installation(recording: Recording) -> dict[str, Any]:
+    """Return what `recording.json` holds beside the channels: ``device`` and ``setup``."""
     setup = recording.setup
     document = {
-        "format": FORMAT,
         "device": {"vendor": recording.vendor, "model": recording.model},
         "setup": {
             "profile_interval_m": setup.profile_interval_m,
@@ -151,9 +156,8 @@ def _describe(recording: Recording) -> tuple[dict[str, Any], dict[str, FloatArra
             **_describe_vehicle(setup.vehicle),
             **({} if setup.axles is None else {"axles": vars(setup.axles)}),
         },
-        "channels": entries,
     }
-    return plain(document, "recording"), samples
+    return {**plain(document, "recording")}
 
 
 def _describe_vehicle(vehicle: VehicleSetup | None) -> dict[str, Any]:

@@ -2,13 +2,13 @@
 
 import json
 from collections.abc import Iterable
-from difflib import get_close_matches
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any, cast
 
 from floatref.errors import InputError
 from floatref.files.document import show
+from floatref.values.display.similar_names import suggest
 
 if TYPE_CHECKING:
     from jsonschema import Draft202012Validator, ValidationError
@@ -21,14 +21,12 @@ SCHEMAS = (
     "floatref-batch-record-1",
 )
 """Names of the schemas in the package."""
-SHOWN = 16
-"""Largest number of known names that an error lists."""
 
 
 def read_schema(name: str) -> dict[str, Any]:
     """Return the JSON Schema (draft 2020-12) called ``name``; InputError if it is unknown."""
     if name not in SCHEMAS:
-        raise InputError(f"schema {name}: unknown; known: {', '.join(SCHEMAS)}")
+        raise InputError(f"schema {name}: unknown; {suggest(name, SCHEMAS, 'known:')}")
     text = (files("floatref.files") / "schemas" / f"{name}.json").read_text(encoding="utf-8")
     return cast(dict[str, Any], json.loads(text))
 
@@ -105,13 +103,7 @@ def _unknown(error: "ValidationError") -> str:
 def _describe_expected(error: "ValidationError") -> str:
     schema = cast(dict[str, Any], error.schema)
     if error.validator == "additionalProperties":
-        return _similar(_unknown(error), list(schema["properties"]))
+        return suggest(_unknown(error), schema["properties"], "known:")
     if error.validator == "enum" and isinstance(error.instance, str):
-        return _similar(error.instance, cast(list[str], error.validator_value))
+        return suggest(error.instance, cast(list[str], error.validator_value), "known:")
     return f"expected {schema['description']}"
-
-
-def _similar(name: str, known: list[str]) -> str:
-    near = get_close_matches(name[:64], known, n=1)
-    more = f" and {len(known) - SHOWN} more" if len(known) > SHOWN else ""
-    return f"did you mean {near[0]}?" if near else f"known: {', '.join(known[:SHOWN])}{more}"

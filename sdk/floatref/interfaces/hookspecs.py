@@ -14,6 +14,7 @@ from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.markers import hookspec
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.interfaces.profile_format import ProfileFormat
+from floatref.interfaces.recording_format import RecordingFormat
 from floatref.interfaces.stage_calls import StageCall
 from floatref.stages.protocol import Stage
 from floatref.values.profile import Profile
@@ -29,6 +30,11 @@ def floatref_register_adapters(register: Callable[[Adapter], None]) -> None:
 @hookspec
 def floatref_register_profile_formats(register: Callable[[ProfileFormat], None]) -> None:
     """Call ``register(format)`` for every kind of profile file of the plug-in."""
+
+
+@hookspec
+def floatref_register_recording_formats(register: Callable[[RecordingFormat], None]) -> None:
+    """Call ``register(format)`` for every kind of recording file that the plug-in writes."""
 
 
 @hookspec

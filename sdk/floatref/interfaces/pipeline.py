@@ -10,6 +10,7 @@ from floatref.errors import InputError
 from floatref.interfaces.stage_calls import StageCall
 from floatref.stages.protocol import Stage
 from floatref.values.block import Header
+from floatref.values.display.similar_names import suggest
 
 Answer = Callable[["Context"], Sequence[Stage | StageCall]] | Sequence[StageCall]
 """A pipeline's answer at a point: calls of registered stages, or a function that returns stages or
@@ -29,7 +30,8 @@ class Pipeline:
     numbers with their defaults, all above zero except the ``signed`` ones; None is a number that
     the recording decides. ``channels`` are the channels that it reads in addition to the nominal
     ones, for every track or shared, and ``readings`` those of GNSS; ``capabilities`` are the
-    sensors that deliver them.
+    sensors that deliver them. ``through_stops`` is whether it measures the road where the vehicle
+    stops and creeps; None if that is not stated.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Pipeline:
     readings: tuple[str, ...] = ()
     capabilities: tuple[str, ...] = ()
     signed: tuple[str, ...] = ()
+    through_stops: bool | None = None
 
     def resolve(self, given: Mapping[str, Any]) -> dict[str, float | None]:
         """Return the settings, with the ``given`` ones replaced; InputError if one is not possible.
@@ -49,9 +52,9 @@ class Pipeline:
         """
         for name in given:
             if name not in self.settings and name not in OF_ALL:
-                known = ", ".join((*self.settings, *OF_ALL))
+                known = suggest(name, (*self.settings, *OF_ALL), "it has")
                 raise InputError(
-                    f"setting {name}: pipeline {self.name} has no such setting; it has {known}"
+                    f"setting {name}: pipeline {self.name} has no such setting; {known}"
                 )
         chosen = {
             name: _number(name, value, name in self.signed or name in OF_ALL)
@@ -79,11 +82,13 @@ class Pipeline:
         name: str,
         summary: str,
         settings: Mapping[str, float | None] | None = None,
+        through_stops: bool | None = None,
         **answers: Answer,
     ) -> "Pipeline":
         """Return a pipeline of another ``name`` with these ``answers``, by point.
 
-        ``settings`` are added to those that it has, or replace their defaults.
+        ``settings`` are added to those that it has, or replace their defaults. Whether it measures
+        ``through_stops`` stays as it is unless given.
         """
         return replace(
             self,
@@ -91,6 +96,7 @@ class Pipeline:
             summary=summary,
             settings={**self.settings, **(settings or {})},
             answers={**self.answers, **answers},
+            through_stops=self.through_stops if through_stops is None else through_stops,
         )
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Protocol
 
 from floatref.files import read_profile, write_profile, write_profile_csv
-from floatref.files.profile_csv import DISTANCE
+from floatref.files.constant_interval import DISTANCE
 from floatref.files.profile_directory import DOCUMENT
 from floatref.values.profile import Profile
 

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from inspect import signature
 from typing import Any
 
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.stages.protocol import Stage
+from floatref.values.display.similar_names import suggest
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,7 @@ class StageCall:
         Raises InputError for an unknown name, a missing setting or arguments that do not fit.
         """
         if self.name not in known:
-            close = get_close_matches(self.name, known, n=3, cutoff=0.4) or sorted(known)[:3]
-            raise InputError(f"stage {self.name}: unknown; there are {', '.join(close)} and others")
+            raise InputError(f"stage {self.name}: unknown; {suggest(self.name, sorted(known))}")
         arguments = [_resolve(value, setting) for value in self.arguments]
         keywords = {name: _resolve(value, setting) for name, value in self.keywords.items()}
         return _make(self.name, known[self.name], arguments, keywords)

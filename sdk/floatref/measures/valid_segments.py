@@ -87,10 +87,11 @@ def invalid_lengths(track: ProfileTrack, edges: IndexArray, interval_m: float) -
     ``edges``, shape (n + 1,), are the first interval of every segment and the end. A point stands
     for one interval; the last segment has one more, and no segment is longer than it is.
     """
-    before = np.concatenate(([0], np.cumsum(~track.valid)))
     ends = edges.copy()
     ends[-1] += 1
-    points = np.diff(before[ends])
+    cuts = zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)
+    # One by one: a count of every point so far would take eight times the room of the flags.
+    points = np.array([b - a - np.count_nonzero(track.valid[a:b]) for a, b in cuts])
     return np.asarray(np.minimum(points, np.diff(edges)) * interval_m, dtype=np.float64)
 
 

@@ -105,7 +105,9 @@ class ToDistance(Stage):
 
         late = wide.flags.get(ChannelId(DISTANCE))
         pending, found = self.memory["pending"], {}
-        for channel in wide.without(DISTANCE).values:
+        # The time of a point is as the encoder's distance.
+        time = (ChannelId(TIME),) if self.keep_time else ()
+        for channel in (*wide.without(DISTANCE).values, *time):
             own = [f for f in (wide.flags.get(channel), late) if f is not None]
             if not own and not pending.get(channel):
                 continue

@@ -55,16 +55,17 @@ class Grade:
     def cross(self, place: float, height: float) -> float:
         """Return by how much the sample behind a seam is below the road that goes on, in m.
 
-        What was before moves up to that sample.
+        What was before moves up to that sample. A height that is missing goes on at the grade.
         """
-        if np.isnan(height) or not self.places.size:
+        if not self.places.size:
             return 0.0
         self._keep_near()
         travel, level = place - self.place, self.height
         if self.places.size > 1:
             level += travel * float(np.polyfit(self.places - self.place, self.heights, 1)[0])
-        self.places, self.heights = self.places + travel, self.heights + height - self.height
-        return level - height
+        behind = level if np.isnan(height) else height
+        self.places, self.heights = self.places + travel, self.heights + behind - self.height
+        return level - behind
 
     def _keep_near(self) -> None:
         near = self.places >= self.place - GRADE_M

@@ -40,8 +40,8 @@ class ToTime(Stage):
     amplitude grows with the square of the interval, its square is the share, and that is 1 where an
     interval lasts ``unknown_s``, or less with a jolt (`JOLT_M_S`). The acceleration is reduced by
     that share. A height away from any trigger is flagged. A sample has the flags of the trigger
-    behind it, and the non-lasting ones of the trigger before it. The distance has the `Flag.SLOW`
-    of the heights, where the encoder has lost travel or made it up.
+    behind it, and the non-lasting ones of the trigger before it. The distance has those of the
+    time, where the encoder gives no travel or makes it up.
 
     An interval of more than `LONGEST_S` is cut to that duration, so that a stop of an hour does not
     give an hour of samples. Sample 0 lies at the first trigger.
@@ -142,9 +142,9 @@ class ToTime(Stage):
             if channel.name == ACCELERATION:
                 values[channel] *= known
         flags = _mark(wide, between, between.apart * step > NEAR_S)
-        marks = flags.get(ChannelId(HEIGHT, header.tracks[0]))
-        if marks is not None:
-            flags[ChannelId(DISTANCE)] = marks & np.uint8(Flag.SLOW)
+        marks = between.marks(wide.flags.get(ChannelId(TIME)))
+        if marks is not None and marks.any():
+            flags[ChannelId(DISTANCE)] = marks
         return Block(first, values, flags=flags)
 
     def _find_unknown(self, wide: Block, between: "Between") -> BoolArray:

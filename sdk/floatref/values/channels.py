@@ -6,11 +6,11 @@ adapter converts it.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from types import MappingProxyType
 from typing import NamedTuple
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 
 STANDARD_GRAVITY = 9.80665
 """Standard gravity g in m/s², added by an accelerometer at rest."""
@@ -105,9 +105,7 @@ def channel_spec(name: str) -> ChannelSpec:
     """Return the specification of channel ``name``; InputError if it is unknown."""
     if name in CHANNELS:
         return CHANNELS[name]
-    near = get_close_matches(name, CHANNELS, n=1)
-    hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(CHANNELS)}"
-    raise InputError(f"channel {name}: unknown name; {hint}")
+    raise InputError(f"channel {name}: unknown name; {suggest(name, CHANNELS, 'known:')}")
 
 
 def check_unit(channel: ChannelId, unit: str) -> None:

@@ -14,7 +14,6 @@ from floatref.values.display.html_table import html_table
 from floatref.values.display.iri_table import ProfileIri
 from floatref.values.display.short_text import (
     NO_VALUE,
-    hint_at,
     in_mm_or_m,
     join_some,
     percent,
@@ -22,6 +21,7 @@ from floatref.values.display.short_text import (
     share_of,
     shorten,
 )
+from floatref.values.display.similar_names import hint_at
 from floatref.values.display.views import view
 
 if TYPE_CHECKING:

@@ -9,10 +9,11 @@ from numpy.typing import ArrayLike
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.axle_setup import AxleSetup
-from floatref.values.channels import ChannelId, channel_spec, check_unit
+from floatref.values.channels import CHANNELS, ChannelId, channel_spec, check_unit
 from floatref.values.clock import Clock, StampedClock, UniformClock
 from floatref.values.display.html_table import html_table
 from floatref.values.display.short_text import join_some, percent, rate_text, share_of, shorten
+from floatref.values.display.similar_names import hint_at
 from floatref.values.display.views import view
 from floatref.values.installation import ORIGIN, Setup, TrackSetup, Vector, check_interval
 from floatref.values.scanning import first_where
@@ -149,7 +150,9 @@ class Recording:
             here = ", ".join(str(c.id) for c in self.channels)
             named = any(c.id.track is not None for c in self.channels)
             missing = ChannelId(name, track if named else None)
-            raise InputError(f"channel {missing}: missing; the recording holds {here}")
+            # A standard name is not a mistyped one, however near another is.
+            hint = "" if name in CHANNELS else hint_at(name, [c.id.name for c in self.channels])
+            raise InputError(f"channel {missing}: missing; the recording holds {here}{hint}")
         return channel
 
     @property

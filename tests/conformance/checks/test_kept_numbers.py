@@ -62,7 +62,9 @@ def test_a_second_pass_that_cannot_be_is_refused_by_its_name(right_bench, key, v
 
 
 def test_a_name_that_a_second_pass_does_not_have_is_refused(right_bench):
-    with pytest.raises(InputError, match="variation second_sped_kmh: unknown; known: second_seed"):
+    with pytest.raises(
+        InputError, match="variation second_sped_kmh: unknown; did you mean second_speed_kmh"
+    ):
         judged(right_bench, with_number(RepeatabilityCheck().simplest, "second_sped_kmh", 60.0))
 
 

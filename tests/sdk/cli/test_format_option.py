@@ -34,12 +34,13 @@ def folder(tmp_path_factory, ran):
 
 
 def test_every_format_is_offered(folder, invoke, reported):
-    assert "[profile|csv|erd|parquet]" in invoke("process", "--help").output
+    assert "[profile|csv|erd|text|parquet]" in invoke("process", "--help").output
     listed = reported("adapters")["formats"]
     assert [(f["name"], f["suffix"]) for f in listed] == [
         ("profile", ""),
         ("csv", ".csv"),
         ("erd", ".erd"),
+        ("text", ".txt"),
         ("parquet", ".parquet"),
     ]
     assert "ERD of UMTRI" in invoke("adapters").output
@@ -60,8 +61,8 @@ def test_the_format_is_taken_by_name_too_and_a_target_is_not_replaced(folder, ra
     ran("process", folder / "run", "--out", out, "--format", "erd")
     assert out.read_bytes() == (folder / "made.erd").read_bytes()
     assert "exists" in refused("process", folder / "run", "--out", out, "--format", "erd")
-    assert "suffix .ppf is no format; use .csv, .erd, .parquet, no suffix" in refused(
-        "process", folder / "run", "--out", folder / "p.ppf"
+    assert "suffix .bin is no format; use .csv, .erd, .txt, .parquet, no suffix" in refused(
+        "process", folder / "run", "--out", folder / "p.bin"
     )
     assert not list(folder.glob(".floatref-*"))
 

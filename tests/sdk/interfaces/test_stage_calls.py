@@ -51,7 +51,7 @@ def test_a_setting_is_that_of_the_run(number):
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (StageCall("HighPasB3S1", "elevation", 0.1), "unknown; there are .*HighPassB3S1"),
+        (StageCall("HighPasB3S1", "elevation", 0.1), "unknown; did you mean HighPassB3S1"),
         (StageCall("HighPassB3S1", "elevation"), "missing a required argument: 'cutoff'"),
         (StageCall("HighPassB3S1", "elevation", cut=1), r"it takes \(channel: str, cutoff"),
         (StageCall("HighPassB3S1", "elevation", Setting("per_m")), "setting per_m: "),

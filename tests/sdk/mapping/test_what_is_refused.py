@@ -52,7 +52,7 @@ def test_names_that_would_break_a_line_do_not(put: Put, make_stream, chart, refu
         make_stream(evil, {evil: [1.0, 2.0]}, rate=Fraction(100), count=9),
         warnings=("bad\nline\x1b",),
     )
-    assert "there are a\\nb" in refused(InputError, source, chart(ChannelEntry("a\nb", "height")))
+    assert "there are a\\nb" in refused(InputError, source, chart(ChannelEntry("q\nq", "height")))
     reading = read_native(source, chart(ChannelEntry(evil, "height", unit="m")))
     assert len(reading.warnings) == 2
     assert all(line.isprintable() for line in reading.warnings)
@@ -113,7 +113,7 @@ def test_a_source_that_is_not_there_or_of_no_adapter_is_named(
     (tmp_path / "run.xyz").write_bytes(b"")
     assert "no adapter recognises it" in refused(InputError, tmp_path / "run.xyz", chart())
     line = refused(InputError, tmp_path / "run.xyz", chart(), "logr")
-    assert "adapter logr: unknown; there are recording" in line
+    assert "adapter logr: unknown; did you mean logger?" in line
 
 
 def test_paths_may_be_text_and_the_public_name_is_the_same(

@@ -117,7 +117,7 @@ def test_what_lasts_concerns_the_whole_interval_before_a_trigger():
 def lost(block, where):
     """Return ``block`` with the triggers ``where`` flagged as behind travel that was lost."""
     marks = np.isin(np.arange(len(block)), where) * np.uint8(Flag.SLOW | Flag.MISSING)
-    return replace(block, flags=dict.fromkeys((UP, RANGE), marks))
+    return replace(block, flags=dict.fromkeys((UP, RANGE, TIME), marks))
 
 
 @laws

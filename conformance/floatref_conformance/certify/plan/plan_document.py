@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +9,7 @@ from floatref.errors import InputError
 from floatref.files.schema import enforce_schema
 from floatref.files.sources import name_errors
 from floatref.files.toml_document import read_toml
+from floatref.values.display.similar_names import did_you_mean
 from floatref_conformance.certify.plan.run_paths import check_exists, runs_of
 from floatref_conformance.schemas import read_schema
 
@@ -162,6 +162,6 @@ def _tables(document: Any, schema: Any) -> Iterator[tuple[str, Any, list[str]]]:
 def _check_keys(place: str, table: Any, known: list[str]) -> None:
     """Raise InputError for a key that was meant to be a known one."""
     for key in table if isinstance(table, dict) else ():
-        near = get_close_matches(key[:64], known, n=1, cutoff=ALIKE)
-        if near and key not in known:
-            raise InputError(f"{place}{'.' if place else ''}{key}: did you mean {near[0]}?")
+        hint = "" if key in known else did_you_mean(key, known, ALIKE)
+        if hint:
+            raise InputError(f"{place}{'.' if place else ''}{key}: {hint}")

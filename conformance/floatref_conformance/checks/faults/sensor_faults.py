@@ -13,6 +13,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock
+from floatref.values.display.similar_names import suggest
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.faults.augmented_faults import AUGMENTED, RESPONSE
 from floatref_conformance.checks.faults.injection import (
@@ -165,7 +166,8 @@ def fault_of(numbers: Numbers) -> Fault:
     """Return the fault that a case's variation names; InputError if it is unknown."""
     name = numbers.get("fault")
     if name not in SENSOR_FAULTS:
-        raise InputError(f"variation fault {name!r}: unknown; known: {', '.join(SENSOR_FAULTS)}")
+        known = suggest(name, SENSOR_FAULTS, "known:")
+        raise InputError(f"variation fault {name!r}: unknown; {known}")
     return SENSOR_FAULTS[str(name)]
 
 

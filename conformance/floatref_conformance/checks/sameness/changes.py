@@ -9,6 +9,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.clock import StampedClock
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.sameness.change import (
@@ -198,7 +199,8 @@ def change_of(numbers: Numbers) -> Change:
     """Return the change that a case's variation names; InputError if it is unknown."""
     name = numbers.get("change")
     if name not in CHANGES:
-        raise InputError(f"variation change {name!r}: unknown; known: {', '.join(CHANGES)}")
+        known = suggest(name, CHANGES, "known:")
+        raise InputError(f"variation change {name!r}: unknown; {known}")
     return CHANGES[str(name)]
 
 

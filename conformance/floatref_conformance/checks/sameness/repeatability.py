@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case, Number
 from floatref_conformance.checks.interface import Bench
@@ -53,7 +54,7 @@ def passes_of(case: Case) -> tuple[Scenario, Scenario]:
     second = replace(first, road_seed=first.seed if first.road_seed < 0 else first.road_seed)
     for name, value in case.variation.items():
         if name not in CHANGES:
-            raise InputError(f"variation {name}: unknown; known: {', '.join(CHANGES)}")
+            raise InputError(f"variation {name}: unknown; {suggest(name, CHANGES, 'known:')}")
         change: dict[str, Any] = {CHANGES[name]: value}
         try:
             second = replace(second, **change)

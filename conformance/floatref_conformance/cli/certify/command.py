@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.certify.plan.plan_document import Plan, Processing
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.certify.certify_options import Limit, limits_with, plan_of
@@ -113,7 +114,7 @@ def _check_pipeline(name: str | None) -> None:
 
     known = [entry.name for entry in entries()]
     if name not in known:
-        raise InputError(f"pipeline {name}: unknown; there are {', '.join(known)}")
+        raise InputError(f"pipeline {name}: unknown; {suggest(name, known)}")
 
 
 def _check_report(folder: Path | None) -> None:

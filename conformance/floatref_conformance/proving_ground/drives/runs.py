@@ -14,6 +14,7 @@ from types import MappingProxyType
 
 from floatref.errors import InputError
 from floatref.values.channels import STANDARD_GRAVITY
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.proving_ground.drives import manoeuvres
 from floatref_conformance.proving_ground.drives.drive import Drive
 
@@ -88,7 +89,7 @@ RUNS: Mapping[str, Run] = _read()
 def run_drive(name: str) -> Drive:
     """Return the drive of a run, `RECORDING_LENGTH_M` long; InputError for an unknown name."""
     if name not in RUNS:
-        raise InputError(f"run {name}: unknown; choose from {', '.join(RUNS)}")
+        raise InputError(f"run {name}: unknown; {suggest(name, RUNS, 'choose from')}")
     return _DRIVES[RUNS[name].kind](RUNS[name])
 
 

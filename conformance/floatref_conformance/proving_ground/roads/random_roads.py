@@ -29,6 +29,7 @@ from scipy.special import k1
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.proving_ground.roads.road import (
     RUN_OUT_M,
     SPACING_M,
@@ -187,6 +188,6 @@ def sayers_road(
     """
     if isinstance(case, str):
         if case not in CASES:
-            raise InputError(f"road case {case}: unknown; choose from {', '.join(CASES)}")
+            raise InputError(f"road case {case}: unknown; {suggest(case, CASES, 'choose from')}")
         case = CASES[case]
     return spectral_road(case.density, length_m, seed, spacing_m, tracks, start_m)

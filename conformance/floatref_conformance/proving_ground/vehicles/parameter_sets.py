@@ -9,10 +9,10 @@ models of papers.
 
 from collections.abc import Mapping
 from dataclasses import replace
-from difflib import get_close_matches
 from types import MappingProxyType
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref_conformance.proving_ground.vehicles.axle import Axle
 from floatref_conformance.proving_ground.vehicles.full_car import Vehicle
 from floatref_conformance.proving_ground.vehicles.linear_models import (
@@ -130,9 +130,7 @@ def find_vehicle(name: str, friction_nm: float = 0.0, progression_per_m2: float 
             )
         return LINEAR_MODELS[name]
     known = (*VEHICLES, *LINEAR_MODELS)
-    near = get_close_matches(name, known, n=1)
-    hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
-    raise InputError(f"vehicle {name}: unknown; {hint}")
+    raise InputError(f"vehicle {name}: unknown; {suggest(name, known, 'known:')}")
 
 
 def with_springs(vehicle: Vehicle, friction_nm: float, progression_per_m2: float) -> Vehicle:

@@ -24,6 +24,7 @@ class Defaults:
     pipeline: str = AUTO
     settings: Mapping[str, Any] = field(default_factory=dict)
     segment_m: float | None = None
+    measures: bool = False
 
 
 def read_given_map(options: Defaults) -> ChannelMap | None:

@@ -199,6 +199,7 @@ class _Search:
             pipeline=options.pipeline,
             settings=options.settings,
             segment_m=options.segment_m,
+            measures=options.measures,
             size_bytes=size_of(source.path.parent if recording else source.path),
         )
 

@@ -24,6 +24,7 @@ class Job:
         pipeline: its name.
         settings: of the pipeline, by name.
         segment_m: length of a segment in the summary; None: the whole profile is one.
+        measures: whether segments get the measures of ride too.
         size_bytes: of what is read, for the order of work and the time left.
     """
 
@@ -35,6 +36,7 @@ class Job:
     pipeline: str = AUTO
     settings: Mapping[str, Any] = field(default_factory=dict)
     segment_m: float | None = None
+    measures: bool = False
     size_bytes: int = 0
 
     @property

@@ -11,6 +11,7 @@ from floatref.batch.jobs.defaults import Defaults, read_given_map
 from floatref.errors import InputError
 from floatref.files.settings_file import read_settings
 from floatref.files.sources import name_errors, open_bytes
+from floatref.values.display.similar_names import suggest
 
 COLUMNS = ("file", "adapter", "map", "pipeline", "settings")
 COMMENT = "#"
@@ -129,7 +130,7 @@ def _columns(header: str) -> tuple[str, ...] | None:
 def _check_columns(columns: Sequence[str]) -> None:
     for name in columns:
         if name not in COLUMNS:
-            raise InputError(f"column {name!r}: unknown; there are {', '.join(COLUMNS)}")
+            raise InputError(f"column {name!r}: unknown; {suggest(name, COLUMNS)}")
         if columns.count(name) > 1:
             raise InputError(f"column {name}: given {columns.count(name)} times; keep one")
 

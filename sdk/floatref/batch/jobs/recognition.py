@@ -9,18 +9,18 @@ from floatref.batch.jobs.job import PROFILES, RECORDS
 from floatref.batch.jobs.manifest import is_manifest
 from floatref.batch.jobs.natural_order import natural_key
 from floatref.engine.formats import find_readers
+from floatref.engine.plugins import plugins
 from floatref.errors import InputError
 from floatref.files.profile_directory import DOCUMENT as PROFILE
 from floatref.files.profile_directory import FORMAT
 from floatref.files.recording_directory import DOCUMENT as RECORDING
 from floatref.interfaces.adapter import RecordingDirectory
-from floatref.interfaces.profile_format import ProfileTable
 
 TABLES = (".csv", ".tsv", ".txt")
 SUFFIXES = frozenset(
     f".{name}"
     for names in (
-        ("mf4", "mdf", "dat", "tdms", "h5", "hdf", "hdf5", "mat", "nc"),
+        ("mf4", "mdf", "mcap", "dat", "tdms", "h5", "hdf", "hdf5", "mat", "nc"),
         ("parquet", "arrow", "arrows", "ipc", "feather", "csv", "tsv"),
         ("nmea", "gps", "asc", "blf", "trc"),
     )
@@ -89,12 +89,16 @@ def is_output(path: Path) -> bool:
 
 
 def is_profile(path: Path) -> bool:
-    """Tell from its first and last bytes whether ``path`` is a profile written by floatref."""
+    """Tell from its first and last bytes whether ``path`` is a profile of a format of its suffix.
+
+    Parquet files begin alike; of a profile the footer names our format.
+    """
+    suffix = path.suffix.lower()
     try:
-        suffix = path.suffix.lower()
-        if suffix == ".csv":
-            return ProfileTable().recognises(path)
-        return suffix == ".parquet" and FORMAT.encode() in _footer(path)
+        if suffix == ".parquet":
+            return FORMAT.encode() in _footer(path)
+        formats = plugins().profile_formats().values()
+        return any(form.recognises(path) for form in formats if form.suffix == suffix != "")
     except OSError:
         return False
 

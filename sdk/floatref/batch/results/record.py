@@ -15,7 +15,9 @@ from floatref.batch.jobs.job import Job
 from floatref.errors import InputError
 from floatref.files.atomic import replace_file
 from floatref.files.document import plain, read_document, write_document
+from floatref.files.gis.lines import Line
 from floatref.files.schema import enforce
+from floatref.measures.ride.segment_measures import SegmentMeasures
 
 FORMAT = "floatref-batch-record/1"
 
@@ -38,6 +40,8 @@ class Row:
             profile has no 1-σ.
         mean_roughness_index_of_valid_m_per_km: mean of both wheel paths; NaN unless both have one.
         mean_roughness_index_counted_share: the smaller share of both; NaN unless there are two.
+        lines_deg: the known places along the segment, longitude and latitude, as lines.
+        measures: what contracts ask for beside the IRI; None unless they were asked for.
     """
 
     track: str
@@ -55,6 +59,8 @@ class Row:
     iri_of_valid_high_m_per_km: float = nan
     mean_roughness_index_of_valid_m_per_km: float = nan
     mean_roughness_index_counted_share: float = nan
+    lines_deg: tuple[Line, ...] = ()
+    measures: SegmentMeasures | None = None
 
 
 @dataclass(frozen=True)
@@ -79,9 +85,10 @@ class Record:
         rows: of the summary; empty after an error.
         warnings: of reading and processing, one line each.
         remarks: measures of the profile that failed, one line each.
-        key: ``asked``, what the profile depends on besides its inputs; ``segment_m``; after success
-            also the ``settings`` of the profile, the ``adapter`` that read it, and ``located``,
-            whether the recording tells where it was.
+        key: ``asked``, what the profile depends on besides its inputs; ``segment_m`` and
+            ``measured``, what its rows were asked to have; after success also the ``settings`` of
+            the profile, the ``adapter`` that read it, and ``located``, whether the recording tells
+            where it was.
         inputs: SHA-256 of every file that was read, by its absolute path.
         outputs: SHA-256 of every file of the profile, by its name.
         effort: its cost.
@@ -103,6 +110,7 @@ class Record:
 
 
 SCHEMA = "floatref-batch-record-1"
+PLAIN = (str, int, float)
 MOST_BYTES = 1 << 28
 """Largest record that is read: ten thousand kilometres in segments of 100 m."""
 
@@ -161,13 +169,26 @@ def make_folder_of(path: Path) -> None:
 
 
 def _row(entry: Mapping[str, Any]) -> Row:
-    known = _known(entry, Row)
-    return Row(**known | {name: nan for name, value in known.items() if value is None})
+    lines = tuple(
+        tuple((float(east), float(north)) for east, north in line)
+        for line in entry.get("lines_deg", ())
+    )
+    found = entry.get("measures")
+    measures = None if found is None else SegmentMeasures(**_numbers(found, SegmentMeasures))
+    return Row(**_numbers(entry, Row), lines_deg=lines, measures=measures)
 
 
-def _known(entry: Mapping[str, Any], kind: type[Row] | type[Effort]) -> dict[str, Any]:
+def _numbers(entry: Mapping[str, Any], kind: type[Row] | type[SegmentMeasures]) -> dict[str, Any]:
+    """Return the fields of ``kind`` in ``entry`` that are not lists or objects, None as NaN."""
+    known = _known(entry, kind)
+    return {name: nan if value is None else value for name, value in known.items()}
+
+
+def _known(
+    entry: Mapping[str, Any], kind: type[Row] | type[SegmentMeasures] | type[Effort]
+) -> dict[str, Any]:
     """Return the fields of ``kind`` in ``entry``, with floats for all numbers but counts."""
-    found = {f.name: (entry[f.name], f.type) for f in fields(kind)}
+    found = {f.name: (entry[f.name], f.type) for f in fields(kind) if f.type in PLAIN}
     return {
         name: float(value) if kind is float and value is not None else value
         for name, (value, kind) in found.items()

@@ -4,16 +4,17 @@ import csv
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import asdict
 from itertools import islice
 from math import isnan
 from pathlib import Path
 from typing import Any
 
 from floatref.batch.jobs.job import PROFILES
-from floatref.batch.results.record import Record
+from floatref.batch.results.record import Record, Row
 from floatref.errors import missing_extra
 from floatref.files.atomic import replace_file
+from floatref.measures import rate_iri
+from floatref.measures.ride.segment_measures import MEASURES
 
 CSV, PARQUET = "summary.csv", "summary.parquet"
 """Names of the two files; they hold the same values."""
@@ -47,27 +48,50 @@ COLUMNS: Mapping[str, type] = {
     "mean_roughness_index_counted_share": float,
 }
 """Columns and their types; an unknown value is null, and empty in CSV."""
+RATING = "hpms_rating"
+NOT_COLUMNS = ("lines_deg", "measures")
+"""Fields of a row that are no columns by themselves."""
 TOGETHER = 4096
 """Rows in memory at a time, one row group of Parquet."""
 
 
-def write_summary(records: Iterable[Record], out: Path) -> None:
+def measure_columns(measures: bool) -> Mapping[str, type]:
+    """Return the columns of the measures of ride and their types; without ``measures``, no column.
+
+    The rating is that of the mean roughness index of all points, or of the only wheel path.
+    """
+    return {**dict.fromkeys(MEASURES, float), RATING: str} if measures else {}
+
+
+def figures_of(row: Row) -> dict[str, Any]:
+    """Return the figures of ``row`` by column, those of its measures included; None is unknown."""
+    held = {name: value for name, value in vars(row).items() if name not in NOT_COLUMNS}
+    if row.measures is not None:
+        mean = row.mean_roughness_index_m_per_km
+        rated = rate_iri(row.iri_m_per_km if isnan(mean) else mean)
+        held |= vars(row.measures) | {RATING: rated}
+    return {name: None if value != value else value for name, value in held.items()}
+
+
+def write_summary(records: Iterable[Record], out: Path, measures: bool = False) -> None:
     """Write `summary.csv` and `summary.parquet` of ``records`` into the folder ``out``.
 
+    With ``measures`` the columns of the measures of ride follow the others.
     A file that failed is one row with its error. Both files are written completely or not at all,
     in bounded memory. Raises InputError where pyarrow is missing, or if they cannot be written.
     """
     pa, parquet = _arrow()
     kinds = {str: pa.string(), int: pa.int64(), float: pa.float64()}
-    schema = pa.schema([(name, kinds[kind]) for name, kind in COLUMNS.items()])
-    lines = (line for record in records for line in _lines(record))
+    columns = {**COLUMNS, **measure_columns(measures)}
+    schema = pa.schema([(name, kinds[kind]) for name, kind in columns.items()])
+    lines = (line for record in records for line in _lines(record, columns))
     with ExitStack() as stack:
         text, table = (
             stack.enter_context(replace_file(out / name, overwrite=True)) for name in (CSV, PARQUET)
         )
         stream = stack.enter_context(text.open("w", encoding="utf-8", newline=""))
         # csv quotes a line feed by itself, a carriage return only if it ends lines.
-        sheet = csv.DictWriter(stream, list(COLUMNS), lineterminator="\r\n")
+        sheet = csv.DictWriter(stream, list(columns), lineterminator="\r\n")
         sheet.writeheader()
         groups = stack.enter_context(parquet.ParquetWriter(table, schema, compression="zstd"))
         while batch := list(islice(lines, TOGETHER)):
@@ -84,14 +108,14 @@ def _arrow() -> tuple[Any, Any]:
     return pa, parquet
 
 
-def _lines(record: Record) -> Iterator[dict[str, Any]]:
+def _lines(record: Record, columns: Mapping[str, type]) -> Iterator[dict[str, Any]]:
     """Yield the rows of ``record`` by column; None stands for unknown."""
     same = {name: _writable(value) for name, value in _common(record).items()}
     if not record.rows:
-        yield {**dict.fromkeys(COLUMNS), **same}
+        yield {**dict.fromkeys(columns), **same}
     for row in record.rows:
-        numbers = {k: None if v != v else v for k, v in asdict(row).items()}
-        yield {**dict.fromkeys(COLUMNS), **numbers, **same, "track": _writable(row.track)}
+        held = figures_of(row) | same | {"track": _writable(row.track)}
+        yield {name: held.get(name) for name in columns}
 
 
 def _common(record: Record) -> dict[str, str]:

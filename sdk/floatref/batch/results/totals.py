@@ -12,6 +12,8 @@ ROUGHEST = 5
 """Number of rows with the largest IRI that are stored."""
 RANKED_SHARE = 0.5
 """Share of the file's longest segment that a row must count over to be among the roughest."""
+FIRST_WARNINGS = 5
+"""Number of warnings whose lines are stored."""
 OPENING = 16 << 20
 """Bytes of a recording that take about as long to read as opening a file takes."""
 
@@ -27,6 +29,7 @@ class Tally:
         skipped: files that were done before and are unchanged.
         failed: name and reason of every file without a profile.
         warnings: lines of warnings of all files.
+        first_warnings: names and lines of the first of them.
         length_m: of all profiles; ``new_m`` of those that this command has made.
         effort: of all profiles, whenever they were made: sums, and the largest peak of memory.
         roughest: IRI of valid points in m/km, name and row, the largest first.
@@ -40,6 +43,7 @@ class Tally:
     skipped: int = 0
     failed: dict[str, str] = field(default_factory=dict)
     warnings: int = 0
+    first_warnings: list[tuple[str, str]] = field(default_factory=list)
     length_m: float = 0.0
     new_m: float = 0.0
     effort: Effort = field(default_factory=Effort)
@@ -57,6 +61,8 @@ class Tally:
         """Count ``record`` of ``job``."""
         self._weight_done += _weight(job.size_bytes)
         self.warnings += len(record.warnings)
+        room = FIRST_WARNINGS - len(self.first_warnings)
+        self.first_warnings += [(record.name, line) for line in record.warnings[:room]]
         if record.error:
             self.failed[record.name] = record.error
             return

@@ -69,7 +69,7 @@ def run_job(job: Job, resume: bool = False) -> Record:
     """Return the record of ``job``; its profile and its record are written.
 
     With ``resume`` nothing is processed if the existing profile was made of the same bytes in the
-    same way; rows are measured again for segments of another length. Never raises an Exception: any
+    same way; rows are measured again for other segments or measures. Never raises an Exception: any
     error is stored in the record, and the profile of an earlier run is removed.
     """
     with _reports_apart():
@@ -83,7 +83,12 @@ def record_failure(job: Job, reason: str) -> Record:
 
 
 def _key(job: Job) -> dict[str, object]:
-    return {"asked": list_what_matters(job), "segment_m": job.segment_m}
+    return {"asked": list_what_matters(job), **_measured(job)}
+
+
+def _measured(job: Job) -> dict[str, object]:
+    """Return what the rows of ``job`` are asked to have; the profile does not depend on it."""
+    return {"segment_m": job.segment_m, "measured": ["lines", *(["ride"] if job.measures else [])]}
 
 
 @contextmanager
@@ -103,7 +108,7 @@ def read_valid_record(job: Job) -> Record | None:
         old = read_record(job.record)
         if not holds(old, job):
             return None
-        if old.key["segment_m"] != job.segment_m:
+        if any(old.key.get(name) != value for name, value in _measured(job).items()):
             old = _measure_again(old, job)
             write_record(old, job.record)
     except Exception:
@@ -113,11 +118,12 @@ def read_valid_record(job: Job) -> Record | None:
 
 
 def _measure_again(old: Record, job: Job) -> Record:
-    """Return ``old`` with the rows of its profile for segments of another length."""
+    """Return ``old`` with the rows of its profile for other segments or other measures."""
+    recording = _recording(job) if old.key["located"] else None
     rows, remarks = measure_segments(
-        read_profile(job.profile), job.segment_m, _recording(job) if old.key["located"] else None
+        read_profile(job.profile), job.segment_m, recording, job.measures
     )
-    key = {**old.key, "segment_m": job.segment_m}
+    key = {**old.key, **_measured(job)}
     return replace(old, rows=rows, remarks=remarks, key=key)
 
 
@@ -144,7 +150,7 @@ def _make_profile(job: Job) -> Record:
     read = recording_of(job.source, job.adapter, job.channel_map)
     result = make_profile(read, job.pipeline, job.settings)
     profile = result.profile
-    rows, remarks = measure_segments(profile, job.segment_m, read.recording)
+    rows, remarks = measure_segments(profile, job.segment_m, read.recording, job.measures)
     check_unchanged(before, read.inputs)
     _make_room(job.profile)
     write_profile(profile, job.profile, overwrite=True)

@@ -9,6 +9,7 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.measures.allan.at_rest import ChannelNoise
 from floatref.measures.allan.noise_fit import NoiseCoefficients
+from floatref.values.display.similar_names import suggest
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import Summary
 
@@ -67,8 +68,8 @@ def choose_channels(recording: Recording, names: Sequence[str]) -> tuple[Channel
     known = {str(c.id) for c in there} | {c.id.name for c in there}
     for name in names:
         if name not in known:
-            here = ", ".join(str(c.id) for c in there)
-            raise InputError(f"channel {name}: cannot be analysed here; there are {here}")
+            here = suggest(name, [str(c.id) for c in there])
+            raise InputError(f"channel {name}: cannot be analysed here; {here}")
     return tuple(c for c in there if not names or {c.id.name, str(c.id)} & set(names))
 
 

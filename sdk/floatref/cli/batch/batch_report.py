@@ -137,6 +137,15 @@ def tell_remarks(passed_over: Sequence[Path], no_longer_given: Sequence[str]) ->
         )
 
 
+def tell_warnings(tally: Tally) -> None:
+    """Print the first warnings of files, and how many more there are."""
+    for name, line in tally.first_warnings:
+        click.echo(f"Warning: {name}: {line}", err=True)
+    more = tally.warnings - len(tally.first_warnings)
+    if more:
+        click.echo(f"Warning: {more} more warnings of files are in the summary", err=True)
+
+
 def count_names(names: Sequence[str]) -> str:
     """Return the number of ``names``, and the first of them."""
     more = ", ..." if len(names) > NAMES else ""

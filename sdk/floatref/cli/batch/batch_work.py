@@ -6,6 +6,8 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
+import click
+
 from floatref.batch.jobs.defaults import Defaults
 from floatref.batch.jobs.inputs import Found
 from floatref.batch.jobs.job import Job
@@ -17,12 +19,13 @@ from floatref.batch.results.batch_document import (
 )
 from floatref.batch.results.folder import not_given, prepare_folder
 from floatref.batch.results.record import Returned, returned_records
+from floatref.batch.results.segment_layer import write_segment_layer
 from floatref.batch.results.summary import write_summary
 from floatref.batch.results.totals import Tally
 from floatref.batch.work.cluster import connect, count_workers
 from floatref.batch.work.running import run_jobs
 from floatref.batch.work.worker_patience import patient, silence
-from floatref.cli.batch.batch_report import progress, tell_remarks
+from floatref.cli.batch.batch_report import progress, tell_remarks, tell_warnings
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,7 @@ class Work:
     jobs: int | None
     cluster: str | None
     plot: Path | None
+    gis: tuple[Path, ...] = ()
 
     @property
     def command(self) -> Command:
@@ -50,6 +54,7 @@ class Work:
                 "jobs": self.jobs,
                 "cluster": self.cluster,
                 "resume": self.resume,
+                "gis": list(map(str, self.gis)),
             },
         )
 
@@ -64,10 +69,16 @@ def work_through(found: Found, work: Work, tally: Tally) -> dict[str, Any]:
         wall_s = monotonic() - tally.began_s
         gone = not_given(work.out, found.jobs)
         tell_remarks(found.passed_over, gone)
-        write_summary(returned.of(found.jobs), work.out)
+        tell_warnings(tally)
+        write_summary(returned.of(found.jobs), work.out, work.defaults.measures)
         finished = Finished(wall_s, workers, found.passed_over, gone)
         document = batch_document(work.command, tally, finished)
         write_batch_document(document, work.out)
+        for layer in work.gis:
+            count = write_segment_layer(
+                returned.of(found.jobs), work.defaults.measures, layer, overwrite=True
+            )
+            click.echo(f"{layer}: {count}", err=True)
         if work.plot is not None:
             _draw(work.out, work.plot)
     return document

@@ -15,6 +15,7 @@ from floatref.cli.printing import print_json
 from floatref.engine.choosing import AUTO
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
+from floatref.files.gis.layer import check_layer
 from floatref.files.settings_file import read_settings
 
 SOME_FAILED = 5
@@ -48,6 +49,18 @@ SOME_FAILED = 5
     help="Length of a segment in the summary; by default the whole profile is one.",
 )
 @click.option(
+    "--measures",
+    is_flag=True,
+    help="Add Ride Number, localized roughness, straightedge and others to every segment.",
+)
+@click.option(
+    "--gis",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    metavar="FILE",
+    help="Write the segments as lines to FILE.geojson or FILE.gpkg; can be repeated.",
+)
+@click.option(
     "--jobs",
     type=click.IntRange(min=1),
     metavar="N",
@@ -71,6 +84,8 @@ def batch(
     pipeline: str,
     settings: Path | None,
     segment_m: float | None,
+    measures: bool,
+    gis: tuple[Path, ...],
     jobs: int | None,
     cluster: str | None,
     resume: bool,
@@ -89,12 +104,22 @@ def batch(
     with interruptible(lambda: _describe_interruption(tally)):
         check_installed()
         _check_drawing(plot, out)
-        defaults = Defaults(adapter, channel_map, pipeline, read_settings(settings), segment_m)
+        _check_layers(gis, out)
+        chosen = read_settings(settings)
+        defaults = Defaults(adapter, channel_map, pipeline, chosen, segment_m, measures)
         found = find_jobs(given, out, defaults)
-        report = work_through(found, Work(given, defaults, out, resume, jobs, cluster, plot), tally)
+        work = Work(given, defaults, out, resume, jobs, cluster, plot, gis)
+        report = work_through(found, work, tally)
     print_json(report) if as_json else print_report(report, tally, out)
     if tally.failed:
         raise click.exceptions.Exit(SOME_FAILED)
+
+
+def _check_layers(layers: tuple[Path, ...], out: Path) -> None:
+    """Raise InputError now if a layer could not be written later; ``out`` may not exist yet."""
+    for layer in layers:
+        within = layer.absolute().parent == out.absolute()
+        check_layer(layer, overwrite=True, in_new_folder=within)
 
 
 def _check_drawing(plot: Path | None, out: Path) -> None:

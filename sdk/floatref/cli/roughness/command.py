@@ -1,14 +1,19 @@
 """`floatref roughness`: localized roughness, MRI, HRI, Ride Number, wavebands and sections."""
 
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 
+from floatref.cli.number_option import number_option
 from floatref.cli.printing import print_json
 from floatref.cli.roughness.roughness_report import RoughnessLimits, roughness_report
 from floatref.cli.roughness.roughness_tables import print_tables
+from floatref.cli.segment_places import layer_of, layer_options, write_profile_layer
 from floatref.engine.formats import profile_of
 from floatref.files.sources import name_errors
+from floatref.measures.ride.segment_measures import RideLimits
 
 DEFAULT = RoughnessLimits()
 
@@ -21,33 +26,20 @@ DEFAULT = RoughnessLimits()
     metavar="LEFT RIGHT",
     help="The wheel paths of the lane, where PROFILE has more than two.",
 )
-@click.option(
+@number_option(
     "--threshold",
-    "threshold_m_per_km",
-    type=float,
-    metavar="M_PER_KM",
-    default=DEFAULT.threshold_m_per_km,
-    show_default=True,
-    help="Continuous IRI over 7.62 m above which roughness is localized, in m/km.",
+    DEFAULT.threshold_m_per_km,
+    "Continuous IRI over 7.62 m above which roughness is localized, in m/km.",
+    name="threshold_m_per_km",
+    unit="M_PER_KM",
 )
-@click.option(
+@number_option(
     "--deviation",
-    "deviation_m",
-    type=float,
-    metavar="METRES",
-    default=DEFAULT.deviation_m,
-    show_default=True,
-    help="Deviation from the moving average beyond which there is a bump or a dip.",
+    DEFAULT.deviation_m,
+    "Deviation from the moving average beyond which there is a bump or a dip.",
+    name="deviation_m",
 )
-@click.option(
-    "--section",
-    "section_m",
-    type=float,
-    metavar="METRES",
-    default=DEFAULT.section_m,
-    show_default=True,
-    help="Length of a section.",
-)
+@number_option("--section", DEFAULT.section_m, "Length of a section.", name="section_m")
 @click.option(
     "--band",
     "bands",
@@ -57,6 +49,7 @@ DEFAULT = RoughnessLimits()
     metavar="LONG SHORT",
     help="Longest and shortest wavelength of a waveband in m; can be repeated.",
 )
+@layer_options
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def roughness(
     profile: Path,
@@ -66,6 +59,7 @@ def roughness(
     section_m: float,
     bands: tuple[tuple[float, float], ...],
     as_json: bool,
+    **layer_given: Any,
 ) -> None:
     """Print what a road is paid by, of PROFILE: a profile directory or a file of any format.
 
@@ -74,9 +68,14 @@ def roughness(
     share of valid points that it rests on.
     """
     limits = RoughnessLimits.of(threshold_m_per_km, deviation_m, section_m, bands)
+    layer = layer_of(**layer_given)
     read = profile_of(profile)
     with name_errors(profile):
         report = roughness_report(read, limits, tracks)
+    if layer is not None:
+        lane = replace(read, tracks=tuple(map(read.track, tracks))) if tracks else read
+        ride = RideLimits(limits.threshold_m_per_km, limits.deviation_m)
+        write_profile_layer(lane, profile.name, section_m, layer, ride)
     if as_json:
         print_json(report)
     else:

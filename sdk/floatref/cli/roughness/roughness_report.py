@@ -1,7 +1,7 @@
 """The JSON document of `floatref roughness`: every figure with the share of it that is valid."""
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -27,15 +27,24 @@ from floatref.measures import (
     waveband_energy,
 )
 from floatref.measures.ride.bumps_and_dips import AVERAGE_BASE_M, DEVIATION_LIMIT_M
-from floatref.measures.roughness.roughness_profile import BASE_M, TENTH_OF_A_MILE_M
+from floatref.measures.roughness.roughness_profile import (
+    BASE_M,
+    LOCALIZED_ABOVE_M_PER_KM,
+    TENTH_OF_A_MILE_M,
+)
+from floatref.measures.valid_segments import segment_iris
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 
-LOCALIZED_ABOVE_M_PER_KM = 2.5
-"""Continuous IRI in m/km above which roughness is localized, unless a contract says otherwise."""
-
 OF_ONE_PATH: dict[str, float | None] = dict.fromkeys(
-    ("mean_roughness_index_m_per_km", "half_car_roughness_index_m_per_km", "ride_number")
+    (
+        "mean_roughness_index_m_per_km",
+        "half_car_roughness_index_m_per_km",
+        "ride_number",
+        "mean_roughness_index_of_valid_m_per_km",
+        "half_car_roughness_index_of_valid_m_per_km",
+        "counted_share",
+    )
 )
 """The figures of a lane that need two wheel paths, None where it has one."""
 
@@ -156,11 +165,18 @@ def _describe_track(
             "name": track.name,
             "valid_share": float(np.mean(track.valid)),
             "iri_m_per_km": iri(z, interval),
+            **_of_valid("iri", track, interval),
             "ride_profile_index": index,
             "ride_number": ride_number(index),
             "localized_roughness": [asdict(area) for area in areas],
             "wavebands": [asdict(energy) for energy in energies],
         }
+
+
+def _of_valid(name: str, track: ProfileTrack, interval_m: float) -> dict[str, float]:
+    """Return the IRI of the valid points of ``track`` in m/km, by ``name``, and their share."""
+    (found,) = segment_iris(replace(track, sigma=None), interval_m)
+    return {f"{name}_of_valid_m_per_km": found.valid_m_per_km, "counted_share": found.counted_share}
 
 
 def _describe_lane(
@@ -188,12 +204,16 @@ def _of_two_paths(
     """Return MRI, HRI and Ride Number of two wheel paths; ``tracks`` are their own figures."""
     left, right = tracks
     one, other = (track.elevation for track in lane.tracks)
+    mean = ProfileTrack.of("mean", lane.elevation, lane.valid)
+    of_valid = (track["iri_of_valid_m_per_km"] for track in tracks)
     values = (
         mean_roughness_index(left["iri_m_per_km"], right["iri_m_per_km"]),
         half_car_roughness_index(one, other, interval_m),
         ride_number(join_profile_indices(left["ride_profile_index"], right["ride_profile_index"])),
+        mean_roughness_index(*of_valid),
     )
-    return dict(zip(OF_ONE_PATH, values, strict=True))
+    half_car = _of_valid("half_car_roughness_index", mean, interval_m)
+    return {**dict(zip(OF_ONE_PATH, values, strict=False)), **half_car}
 
 
 def _describe_section(section: HpmsSection, lane: Lane) -> dict[str, Any]:

@@ -6,6 +6,8 @@ from typing import Any
 
 from floatref.cli.printing import (
     PERCENT_OF_VALID,
+    explain_mark,
+    marked,
     number,
     percent,
     print_areas,
@@ -23,14 +25,19 @@ def print_tables(report: Mapping[str, Any]) -> None:
     tracks, lane = report["tracks"], report["lane"]
     _print_indices(tracks, lane)
     areas = [
-        [track["name"], *_area(area), number(area["peak_m_per_km"]), percent(area["valid_share"])]
+        [
+            marked(track["name"], area["valid_share"] < 1.0),
+            *_area(area),
+            number(area["peak_m_per_km"]),
+            percent(area["valid_share"]),
+        ]
         for track in tracks
         for area in track["localized_roughness"]
     ]
     print_areas("Localized roughness", ("track", *AREA, "peak m/km", PERCENT_OF_VALID), areas)
     places = [
         [
-            place["kind"],
+            marked(place["kind"], place["valid_share"] < 1.0),
             *_area(place),
             number(1000.0 * place["deviation_m"], 2),
             percent(place["valid_share"]),
@@ -41,6 +48,9 @@ def print_tables(report: Mapping[str, Any]) -> None:
     print_areas(of, ("kind", *AREA, "deviation mm", PERCENT_OF_VALID), places)
     _print_wavebands(tracks)
     _print_sections(report["sections"], report["section_length_shares"])
+    explain_mark(
+        lane["valid_share"] < 1.0, "all figures but those of valid points have the others too"
+    )
     print_settings(report["settings"])
 
 
@@ -50,26 +60,25 @@ def _area(area: Mapping[str, Any]) -> list[str]:
 
 def _print_indices(tracks: Records, lane: Mapping[str, Any]) -> None:
     """Print IRI and Ride Number of every wheel path, then MRI, HRI and Ride Number of the lane."""
-    rows = [
-        _index_row(track["name"], track["iri_m_per_km"], track["ride_number"], track["valid_share"])
-        for track in tracks
-    ]
+    rows = [_index_row(track["name"], "iri", track, track["ride_number"]) for track in tracks]
     if lane["ride_number"] is not None:
-        mean, half_car = (lane[f"{name}_roughness_index_m_per_km"] for name in ("mean", "half_car"))
-        rows.append(_index_row("mean (MRI)", mean, lane["ride_number"], lane["valid_share"]))
-        rows.append(_index_row("half car (HRI)", half_car, nan, lane["valid_share"]))
-    print_table(
-        "Roughness", ("track", "IRI m/km", "IRI in/mi", "Ride Number", PERCENT_OF_VALID), rows
-    )
+        mean, half_car = "mean_roughness_index", "half_car_roughness_index"
+        rows.append(_index_row("mean (MRI)", mean, lane, lane["ride_number"]))
+        rows.append(_index_row("half car (HRI)", half_car, lane, nan))
+    columns = ("track", "IRI m/km", "IRI in/mi", "of valid m/km", "Ride Number", PERCENT_OF_VALID)
+    print_table("Roughness", columns, rows)
 
 
-def _index_row(name: str, m_per_km: float, rating: float, valid: float) -> list[str]:
+def _index_row(name: str, index: str, figures: Mapping[str, Any], rating: float) -> list[str]:
+    """Return the cells of a wheel path, or the lane, whose ``index`` is so named in its figures."""
+    m_per_km = figures[f"{index}_m_per_km"]
     return [
-        name,
+        marked(name, figures["valid_share"] < 1.0),
         number(m_per_km),
         number(in_per_mi(m_per_km), 1),
+        number(figures[f"{index}_of_valid_m_per_km"]),
         number(rating, 2),
-        percent(valid),
+        percent(figures["valid_share"]),
     ]
 
 
@@ -77,7 +86,7 @@ def _print_wavebands(tracks: Records) -> None:
     """Print RMS elevation and slope of every wheel path and band."""
     rows = [
         [
-            track["name"],
+            marked(track["name"], band["valid_share"] < 1.0),
             number(band["long_m"], 2),
             number(band["short_m"], 2),
             number(1000.0 * band["rms_elevation_m"]),
@@ -102,7 +111,7 @@ def _print_sections(sections: Records, shares: Mapping[str, float]) -> None:
     """Print every section and the shares of the length by rating."""
     rows = [
         [
-            number(section["start_m"], 2),
+            marked(number(section["start_m"], 2), section["valid_share"] < 1.0),
             number(section["length_m"], 2),
             *(number(value) for value in section["iri_m_per_km"].values()),
             number(section["mean_m_per_km"]),
@@ -119,8 +128,9 @@ def _print_sections(sections: Records, shares: Mapping[str, float]) -> None:
         *("mean m/km", "in/mi", "rating", PERCENT_OF_VALID),
     )
     print_table("Sections", columns, rows)
+    some = any(section["valid_share"] < 1.0 for section in sections)
     print_table(
-        "Rated length",
+        marked("Rated length", some),
         ("rating", "length %"),
         [[rating, number(100.0 * part, 1)] for rating, part in shares.items()],
     )

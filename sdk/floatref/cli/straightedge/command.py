@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from floatref.cli.number_option import number_option
 from floatref.cli.printing import print_json
 from floatref.cli.straightedge.straightedge_report import (
     Straightedge,
@@ -20,59 +21,23 @@ EDGE, MACHINE, RULES = Straightedge(), Profilograph(), TraceRules()
 
 @click.command("straightedge")
 @click.argument("profile", type=click.Path(path_type=Path))
-@click.option(
-    "--length",
-    type=float,
-    metavar="METRES",
-    default=EDGE.length_m,
-    show_default=True,
-    help="Length of the straightedge.",
-)
-@click.option(
-    "--tolerance",
-    type=float,
-    metavar="METRES",
-    default=EDGE.tolerance_m,
-    show_default=True,
-    help="Deviation in its middle that is allowed.",
-)
+@number_option("--length", EDGE.length_m, "Length of the straightedge.")
+@number_option("--tolerance", EDGE.tolerance_m, "Deviation in its middle that is allowed.")
 @click.option(
     "--wheels",
     metavar="METRES,…",
     help="Wheels of the profilograph's frame, from its recording wheel.  [default: -3.81,3.81]",
 )
-@click.option(
+@number_option(
     "--low-pass",
-    type=float,
-    metavar="METRES",
-    default=MACHINE.low_pass_m,
-    show_default=True,
-    help="Wavelength at which the profilograph's low-pass loses 3 dB, 0 for no low-pass.",
+    MACHINE.low_pass_m,
+    "Wavelength at which the profilograph's low-pass loses 3 dB, 0 for no low-pass.",
 )
-@click.option(
-    "--blanking-band",
-    type=float,
-    metavar="METRES",
-    default=RULES.blanking_band_m,
-    show_default=True,
-    help="Height of the blanking band.",
+@number_option("--blanking-band", RULES.blanking_band_m, "Height of the blanking band.")
+@number_option(
+    "--bump", RULES.bump_height_m, "Height above which a bump within 7.62 m must be ground."
 )
-@click.option(
-    "--bump",
-    type=float,
-    metavar="METRES",
-    default=RULES.bump_height_m,
-    show_default=True,
-    help="Height above which a bump within 7.62 m must be ground.",
-)
-@click.option(
-    "--segment",
-    type=float,
-    metavar="METRES",
-    default=RULES.segment_m,
-    show_default=True,
-    help="Length of a segment with a profile index of its own.",
-)
+@number_option("--segment", RULES.segment_m, "Length of a segment with a profile index of its own.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def straightedge(
     profile: Path,

@@ -5,6 +5,8 @@ from typing import Any
 
 from floatref.cli.printing import (
     PERCENT_OF_VALID,
+    explain_mark,
+    marked,
     number,
     percent,
     print_areas,
@@ -22,18 +24,19 @@ def print_tables(report: Mapping[str, Any]) -> None:
     tracks = report["tracks"]
     _print_straightedge(tracks)
     beyond = [
-        [track["name"], *_area(area, "deviation_m")]
+        [_name(track, area), *_area(area, "deviation_m")]
         for track in tracks
         for area in track["straightedge"]["areas"]
     ]
     print_areas("Beyond the tolerance", (*AREA, "deviation mm", PERCENT_OF_VALID), beyond)
     _print_profilograph(tracks)
     bumps = [
-        [track["name"], *_area(area, "height_m")]
+        [_name(track, area), *_area(area, "height_m")]
         for track in tracks
         for area in track["profilograph"]["must_grind"]
     ]
     print_areas("Must be ground", (*AREA, "height mm", PERCENT_OF_VALID), bumps)
+    explain_mark(any(t["valid_share"] < 1.0 for t in tracks), "all figures have the others too")
     print_settings(report["settings"])
 
 
@@ -50,7 +53,7 @@ def _print_straightedge(tracks: Records) -> None:
         edge = track["straightedge"]
         cells = (1000.0 * edge["largest_m"], 100.0 * edge["defective_share"])
         rows.append(
-            [track["name"], *(number(cell, 2) for cell in cells), percent(edge["valid_share"])]
+            [_name(track, edge), *(number(cell, 2) for cell in cells), percent(edge["valid_share"])]
         )
     columns = ("track", "largest mm", "defective %", PERCENT_OF_VALID)
     print_table("Straightedge", columns, rows)
@@ -63,11 +66,16 @@ def _print_profilograph(tracks: Records) -> None:
     for track in tracks:
         whole = track["profilograph"]
         scallops = sum(segment["scallops"] for segment in whole["segments"])
-        rows.append([track["name"], "whole", *_index(whole, scallops)])
+        rows.append([_name(track, whole), "whole", *_index(whole, scallops)])
         for segment in whole["segments"]:
             start = number(segment["start_m"], 2)
-            rows.append([track["name"], start, *_index(segment, segment["scallops"])])
+            rows.append([_name(track, segment), start, *_index(segment, segment["scallops"])])
     print_table("Profilograph", (*columns, PERCENT_OF_VALID), rows)
+
+
+def _name(track: Mapping[str, Any], part: Mapping[str, Any]) -> str:
+    """Return the name of ``track``, with the mark if not all points of its ``part`` are valid."""
+    return marked(track["name"], part["valid_share"] < 1.0)
 
 
 def _index(part: Mapping[str, Any], scallops: int) -> list[str]:

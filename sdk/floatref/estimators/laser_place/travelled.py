@@ -9,6 +9,9 @@ from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 
 SHORT_LOSS_S = 1.0
 """Longest loss of counts that can hide no brake worth a tilt: the speed beside it is as before."""
+MOMENT_S = 0.12
+"""A loss so short that a line across it is as good as the encoder, in the hardest brake too: at
+8 m/s² the speed on it is off by no more than 0.12 m/s."""
 BESIDE_S = 0.25
 """Time on either side whose mean is the speed there: several counts of a coarse encoder."""
 UNSURE_BINS = 4
@@ -24,12 +27,14 @@ class Travelled(NamedTuple):
 
     Attributes:
         distance: that the vehicle has travelled, in m, a line where it is not known.
-        lost: whether the encoder gives no travel there.
+        lost: whether the encoder gives no travel there, and what the vehicle did is not known.
+        guessed: whether the vehicle is taken to have gone on, for long or across a leap.
         rolled: whether it gives no travel, but the vehicle is at a standstill.
     """
 
     distance: FloatArray
     lost: BoolArray
+    guessed: BoolArray
     rolled: BoolArray
 
     @classmethod
@@ -39,24 +44,29 @@ class Travelled(NamedTuple):
         Where the encoder has ``miscounted`` it leaps or counts too much.
         """
         known, bins = np.flatnonzero(~np.isnan(counted)), np.arange(counted.size)
+        nothing = np.zeros(bins.size, np.bool_)
         if not known.size:
-            return cls(counted, np.ones(bins.size, np.bool_), np.zeros(bins.size, np.bool_))
+            return cls(counted, ~nothing, nothing, nothing)
         distance = np.maximum.accumulate(np.interp(bins, known, counted[known]))
         lost = np.isnan(counted) | miscounted
         rolled = rolled_back(lost, distance, step)
         lost &= ~rolled
-        return cls(bridge_short_losses(distance, lost, step), lost, rolled)
+        distance, bridged = bridge_short_losses(distance, lost, step)
+        return cls(distance, lost & ~bridged, _guesses(bridged, miscounted, step), rolled)
 
 
-def bridge_short_losses(distance: FloatArray, lost: BoolArray, step: float) -> FloatArray:
-    """Return the ``distance`` in m, shape (n,), of a vehicle that drives on through ``lost`` bins.
+def bridge_short_losses(
+    distance: FloatArray, lost: BoolArray, step: float
+) -> tuple[FloatArray, BoolArray]:
+    """Return the ``distance`` in m of a vehicle that drives on, and which ``lost`` bins it bridges.
 
-    Its speed is linear between those on both sides. So all behind is moved by what the encoder did
-    not count, or has not travelled. A longer loss, and one at an end of the run, may hide a stop:
-    it is left as it is.
+    All have shape (n,). The speed is linear between those on both sides. So all behind is moved by
+    what the encoder did not count, or has not travelled. A longer loss, and one at an end of the
+    run, may hide a stop: it is left as it is.
     """
+    bridged = np.zeros(lost.size, np.bool_)
     if not lost.any() or distance.size < 2:
-        return distance
+        return distance, bridged
     ways = np.diff(distance)
     unsure = np.convolve(np.pad(lost, 1), np.ones(UNSURE_BINS, np.bool_), "valid")
     known, longest = np.flatnonzero(~unsure), SHORT_LOSS_S / step + UNSURE_BINS
@@ -65,7 +75,8 @@ def bridge_short_losses(distance: FloatArray, lost: BoolArray, step: float) -> F
         if before.size and behind.size and high - low <= longest:
             sides = [before.mean(), behind.mean()], [ways[before].mean(), ways[behind].mean()]
             ways[low:high] = np.interp(np.arange(low, high), *sides)
-    return np.asarray(distance[0] + np.append(0.0, np.cumsum(ways)))
+            bridged[low : high + 1] = lost[low : high + 1]
+    return np.asarray(distance[0] + np.append(0.0, np.cumsum(ways))), bridged
 
 
 def rolled_back(lost: BoolArray, distance: FloatArray, step: float) -> BoolArray:
@@ -79,6 +90,15 @@ def rolled_back(lost: BoolArray, distance: FloatArray, step: float) -> BoolArray
         if near < low and high + near < lost.size:
             beside = distance[[low - 1 - near, low - 1, high, high + near]]
             found[low:high] = np.diff(beside).max() <= ROLLED_M
+    return found
+
+
+def _guesses(bridged: BoolArray, miscounted: BoolArray, step: float) -> BoolArray:
+    """Return which ``bridged`` bins are of a loss that is no moment, or of a leap, shape (n,)."""
+    found = np.zeros(bridged.size, np.bool_)
+    for low, high in _spans(bridged):
+        long = high - low > MOMENT_S / step
+        found[low:high] = long or miscounted[low:high].any()
     return found
 
 

@@ -12,7 +12,7 @@ from floatref.estimators.road_slope.elevation_sigma import elevation_sigma
 from floatref.estimators.road_slope.gauss_newton import Fit, fit
 from floatref.estimators.road_slope.readings import Drive, Readings
 from floatref.estimators.road_slope.rows import Stretch
-from floatref.estimators.road_slope.stretches import find_stretches
+from floatref.estimators.road_slope.stretches import find_active, find_stretches
 from floatref.values.arrays import BoolArray, FloatArray
 
 UNSETTLED_RAD = 3e-3
@@ -111,10 +111,14 @@ class Levelled:
 
 
 def _about_the_slowest(drive: Drive, inside: slice, reach_m: float) -> BoolArray:
-    """Return which bins are within ``reach_m`` of where the vehicle is slowest, shape (n,)."""
-    place = drive.distance[inside]
-    slowest = place[np.argmin(drive.speed[inside])]
-    return np.asarray(np.abs(place - slowest) <= reach_m)
+    """Return which bins are within ``reach_m`` of where a brake is slowest, shape (n,).
+
+    Beside the brake the speed may be as low for long, and the place of its least value is anywhere.
+    """
+    place, speed, braked = drive.distance[inside], drive.speed[inside], find_active(drive)[inside]
+    if braked.any():
+        speed = np.where(braked, speed, np.inf)
+    return np.asarray(np.abs(place - place[np.argmin(speed)]) <= reach_m)
 
 
 def is_believed(result: Fit) -> bool:

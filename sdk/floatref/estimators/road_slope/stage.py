@@ -12,6 +12,7 @@ from floatref.estimators.road_prior.learned import Brake, pool
 from floatref.estimators.road_slope.constants import Places, SlopeModel
 from floatref.estimators.road_slope.levelled import Levelled
 from floatref.estimators.road_slope.readings import Drive
+from floatref.estimators.road_slope.stretches import near_brakes
 from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.marks import flags_of
 from floatref.stages.signals import HEIGHT, LEVELLED, LEVELLING_SIGMA
@@ -89,13 +90,15 @@ class LevelByRoad(HeightByModel):
         """Return the mean of the wheel paths, without a value where one of them is unknown."""
         force, height = middle(bins[:-1:2]) - STANDARD_GRAVITY, middle(bins[1:-1:2])
         lost, unseen = (_any_unknown(rows) for rows in (bins[:-1:2], bins[1:-1:2]))
-        distance, unplaced, rolled = self.take_travelled(bins)
+        distance, unplaced, guessed, rolled = self.take_travelled(bins)
         step, long = self.places().step, distance.size >= pitching.LEAST_SAMPLES
         speed = np.gradient(distance, step) if distance.size > 1 else np.zeros(distance.size)
         along = second_derivative(distance, step) if long else np.zeros(distance.size)
         height = np.where(unseen | rolled, np.nan, height)
         places = distance, speed, along, unplaced
-        return Drive(np.nan_to_num(force), lost, height, *places, step)
+        drive = Drive(np.nan_to_num(force), lost, height, *places, step)
+        # At a steady speed a guess is as good as the encoder.
+        return drive._replace(lost=unplaced | (guessed & near_brakes(drive)))
 
     def _model(self) -> SlopeModel:
         """Return the constants of the fit from those of the smoother."""

@@ -28,20 +28,27 @@ LONGEST_S, SHARED_S = 120.0, 20.0
 def find_stretches(drive: Drive) -> list[list[slice]]:
     """Return the pieces of every stretch, in bins of the ``drive``."""
     found: list[list[slice]] = []
-    for begin, end in _merge(list(_sides(drive, _active(drive)))):
+    for begin, end in _merge(list(_sides(drive, find_active(drive)))):
         used = np.arange(begin, end)[~_cut(drive, begin, end)]
         found += [_pieces(window, drive.step) for window in _windows(used, drive.step)]
     return [pieces for pieces in found if pieces]
 
 
-def _active(drive: Drive) -> BoolArray:
-    """Return where the vehicle accelerates along the road."""
+def find_active(drive: Drive) -> BoolArray:
+    """Return where the vehicle accelerates along the road, shape (n,)."""
     width = max(1, round(SMOOTHED_S / drive.step))
     speed = np.convolve(np.pad(drive.speed, width, "edge"), np.full(width, 1 / width), "same")
     half = max(1, width // 2)
     change = (speed[2 * half :] - speed[: -2 * half]) / (2 * half * drive.step)
     along: FloatArray = change[width - half : width - half + drive.speed.size]
     return np.abs(along) > BRAKING_MPS2
+
+
+def near_brakes(drive: Drive) -> BoolArray:
+    """Return which bins are within `SMOOTHED_S` of where it accelerates, shape (n,)."""
+    near = round(SMOOTHED_S / drive.step)
+    wide = np.pad(find_active(drive), near)
+    return np.asarray(np.convolve(wide, np.ones(2 * near + 1), "valid") > 0.5)
 
 
 def _sides(drive: Drive, active: BoolArray) -> Iterator[tuple[int, int]]:

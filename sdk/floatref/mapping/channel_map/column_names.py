@@ -2,11 +2,11 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from difflib import get_close_matches
 
 from floatref.errors import InputError, one_line
 from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap
 from floatref.values.channels import CHANNELS
+from floatref.values.display.similar_names import did_you_mean
 from floatref.values.native import Column, NativeFile, Stream
 
 Place = tuple[Stream, Column]
@@ -45,9 +45,9 @@ def find(native: NativeFile, name: str) -> Place:
 def similar(name: str, names: Sequence[str], more: Sequence[str] = ()) -> str:
     """Return a name of ``names``, or ``more``, that is like ``name``, else a list or ""."""
     for known in (names, more):
-        near = get_close_matches(name, known[:MOST], n=1)
-        if near:
-            return f"did you mean {near[0]}?"
+        hint = did_you_mean(name, known[:MOST])
+        if hint:
+            return hint
     rest = f" and {len(names) - 8} more" if len(names) > 8 else ""
     return f"there are {', '.join(names[:8])}{rest}" if names else ""
 

@@ -1,13 +1,13 @@
 """Units as files write them, and their factors to the SI units of our channels."""
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from fractions import Fraction
 from math import pi
 from types import MappingProxyType
 from typing import NamedTuple
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import did_you_mean
 
 MPS = "m/s"
 """The SI unit of speed; a speed is integrated into a distance."""
@@ -110,8 +110,8 @@ def unit_of(text: str) -> Unit:
     unit = known_unit(text)
     if unit is not None:
         return unit
-    near = get_close_matches(text.strip().lower(), UNITS, n=1)
-    hint = f"did you mean {near[0]}? " if near else ""
+    hint = did_you_mean(text.strip(), UNITS)
+    advice = f"{hint} state one" if hint else "state one"
     raise InputError(
-        f"unit {text[:40]!r}: unknown; {hint}state one such as mm, g or km/h, and a scale to it"
+        f"unit {text[:40]!r}: unknown; {advice} such as mm, g or km/h, and a scale to it"
     )

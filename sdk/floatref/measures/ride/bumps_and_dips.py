@@ -12,10 +12,8 @@ from numpy.typing import ArrayLike
 from floatref.measures.ride.deviation_areas import (
     BumpOrDip,
     Deviation,
-    bridged_rise,
+    deviation_from_line,
     half_count,
-    place_inside,
-    sound_points,
 )
 from floatref.values.arrays import FloatArray
 
@@ -35,14 +33,29 @@ def deviation_from_average(
     bridged; NaN where the window is not inside the measured stretch, and in gaps. Raises InputError
     for elevations or a base that cannot be used. Source: Tex-1001-S.
     """
+    return average_deviation(elevation, interval_m, base_m).values
+
+
+def average_deviation(
+    elevation: FloatArray,
+    interval_m: float,
+    base_m: float = AVERAGE_BASE_M,
+    start_m: float = 0.0,
+    valid: ArrayLike | None = None,
+) -> Deviation:
+    """Return `deviation_from_average`, and which of its values rest on valid points only.
+
+    ``start_m`` is the position of point 0 in m. Without ``valid``, finite points are valid. Raises
+    InputError as `deviation_from_average`.
+    """
     half = half_count(base_m, interval_m, BASE)
-    stretch, rise = bridged_rise(elevation, interval_m)
-    if rise.size <= 2 * half:
-        return np.full(np.size(elevation), np.nan)
+    return deviation_from_line(elevation, interval_m, half, _moving_average, start_m, valid)
+
+
+def _moving_average(rise: FloatArray, half: int) -> FloatArray:
     window = 2 * half + 1
     sums = np.concatenate(([0.0], np.cumsum(rise)))
-    means = (sums[window:] - sums[:-window]) / window
-    return place_inside(rise[half:-half] - means, elevation, stretch, half)
+    return np.asarray((sums[window:] - sums[:-window]) / window)
 
 
 def bumps_and_dips(
@@ -60,7 +73,4 @@ def bumps_and_dips(
     ``valid``, finite points are valid. Raises InputError as `deviation_from_average`, and for a
     limit that is not above zero. Source: Tex-1001-S.
     """
-    values = deviation_from_average(elevation, interval_m, base_m)
-    half = half_count(base_m, interval_m, BASE)
-    sound = sound_points(valid, elevation, half, half)
-    return Deviation(values, sound, interval_m, start_m).list_areas(limit_m)
+    return average_deviation(elevation, interval_m, base_m, start_m, valid).list_areas(limit_m)

@@ -4,6 +4,7 @@ The line at a point is made from the points on both sides of it, as far as half 
 average, or a straightedge on two wheels.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -72,6 +73,32 @@ class Deviation:
         )
         valid_share = share(self.sound[area.first : area.end])
         return BumpOrDip(kind, first, last, peak, float(self.values[area.peak]), valid_share)
+
+
+Line = Callable[[FloatArray, int], FloatArray]
+"""From heights in m, (N,), and the points of half a window to the line at (N − 2 half,) of them."""
+
+
+def deviation_from_line(
+    elevation: FloatArray,
+    interval_m: float,
+    half: int,
+    line_of: Line,
+    start_m: float = 0.0,
+    valid: ArrayLike | None = None,
+) -> Deviation:
+    """Return how far ``elevation`` in m is above the line through its window of 2 half + 1 points.
+
+    Gaps are bridged; NaN where the window is not inside the measured stretch, and in gaps. Without
+    ``valid``, finite points are valid. Raises InputError for elevations that cannot be used.
+    """
+    stretch, rise = bridged_rise(elevation, interval_m)
+    sound = sound_points(valid, elevation, half, half)
+    values = np.full(np.size(elevation), np.nan)
+    if rise.size > 2 * half:
+        above = rise[half:-half] - line_of(rise, half)
+        values = place_inside(above, elevation, stretch, half)
+    return Deviation(values, sound, interval_m, start_m)
 
 
 def half_count(length_m: float, interval_m: float, name: str) -> int:

@@ -99,23 +99,28 @@ def profile_indices(
     segment shorter than the interval. Source: California Test 526.
     """
     edges = segment_edges(trace.size, interval_m, rules.segment_m).tolist()
-    found = []
-    for first, end in pairwise(edges):
-        part, measured = trace[first:end], np.isfinite(trace[first:end])
-        heights = list(scallop_heights(part, interval_m, rules))
-        length = float(np.count_nonzero(measured)) * interval_m
-        index = M_PER_KM * sum(heights) / length if length else float("nan")
-        found.append(
-            IndexOfSegment(
-                start_m + first * interval_m,
-                (end - first) * interval_m,
-                length,
-                len(heights),
-                index,
-                share(sound[first:end][measured]),
-            )
+    return tuple(
+        index_of_stretch(
+            trace[first:end], sound[first:end], interval_m, rules, start_m + first * interval_m
         )
-    return tuple(found)
+        for first, end in pairwise(edges)
+    )
+
+
+def index_of_stretch(
+    trace: FloatArray,
+    sound: BoolArray,
+    interval_m: float,
+    rules: TraceRules = CALIFORNIA_RULES,
+    start_m: float = 0.0,
+) -> IndexOfSegment:
+    """Return the profile index of all of ``trace``; arguments as of `profile_indices`."""
+    measured = np.isfinite(trace)
+    heights = list(scallop_heights(trace, interval_m, rules))
+    length = float(np.count_nonzero(measured)) * interval_m
+    index = M_PER_KM * sum(heights) / length if length else float("nan")
+    whole, valid_share = trace.size * interval_m, share(sound[measured])
+    return IndexOfSegment(start_m, whole, length, len(heights), index, valid_share)
 
 
 def scallop_heights(

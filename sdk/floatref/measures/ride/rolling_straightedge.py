@@ -8,10 +8,8 @@ from numpy.typing import ArrayLike
 from floatref.measures.ride.deviation_areas import (
     BumpOrDip,
     Deviation,
-    bridged_rise,
+    deviation_from_line,
     half_count,
-    place_inside,
-    sound_points,
 )
 from floatref.measures.roughness.areas import share
 from floatref.values.arrays import FloatArray
@@ -50,12 +48,27 @@ def straightedge_deviation(
     middle of a 10-ft straightedge is what the New Jersey DOT had computed (Rutgers CAIT, project
     67 RU790).
     """
+    return roll_straightedge(elevation, interval_m, length_m).values
+
+
+def roll_straightedge(
+    elevation: FloatArray,
+    interval_m: float,
+    length_m: float = TEN_FEET_M,
+    start_m: float = 0.0,
+    valid: ArrayLike | None = None,
+) -> Deviation:
+    """Return `straightedge_deviation`, and which of its values rest on valid points only.
+
+    ``start_m`` is the position of point 0 in m. Without ``valid``, finite points are valid. Raises
+    InputError as `straightedge_deviation`.
+    """
     half = half_count(length_m, interval_m, LENGTH)
-    stretch, rise = bridged_rise(elevation, interval_m)
-    if rise.size <= 2 * half:
-        return np.full(np.size(elevation), np.nan)
-    line = (rise[: -2 * half] + rise[2 * half :]) / 2.0
-    return place_inside(rise[half:-half] - line, elevation, stretch, half)
+    return deviation_from_line(elevation, interval_m, half, _between_wheels, start_m, valid)
+
+
+def _between_wheels(rise: FloatArray, half: int) -> FloatArray:
+    return np.asarray((rise[: -2 * half] + rise[2 * half :]) / 2.0)
 
 
 def rolling_straightedge(
@@ -71,12 +84,11 @@ def rolling_straightedge(
     ``start_m`` is the position of point 0 in m. Without ``valid``, finite points are valid. Raises
     InputError as `straightedge_deviation`, and for a tolerance that is not above zero.
     """
-    values = straightedge_deviation(elevation, interval_m, length_m)
-    half = half_count(length_m, interval_m, LENGTH)
-    sound = sound_points(valid, elevation, half, half)
-    areas = Deviation(values, sound, interval_m, start_m).list_areas(tolerance_m)
-    measured = np.isfinite(values)
-    sizes = np.abs(values[measured])
+    rolled = roll_straightedge(elevation, interval_m, length_m, start_m, valid)
+    areas = rolled.list_areas(tolerance_m)
+    measured = np.isfinite(rolled.values)
+    sizes = np.abs(rolled.values[measured])
     largest = float(sizes.max()) if sizes.size else float("nan")
-    shares = (share(sizes > tolerance_m), share(sound[measured]))
-    return StraightedgeResult(2 * half * interval_m, largest, *shares, areas)
+    shares = (share(sizes > tolerance_m), share(rolled.sound[measured]))
+    used_m = 2 * half_count(length_m, interval_m, LENGTH) * interval_m
+    return StraightedgeResult(used_m, largest, *shares, areas)

@@ -15,6 +15,9 @@ from floatref.values.arrays import BoolArray, FloatArray
 BASE_M = 7.62
 """Base length of the short-interval roughness profile in m (25 ft)."""
 
+LOCALIZED_ABOVE_M_PER_KM = 2.5
+"""Continuous IRI in m/km above which roughness is localized, unless a contract says otherwise."""
+
 M_PER_KM_TO_IN_PER_MI = 63.36
 """One m/km in inches per mile."""
 

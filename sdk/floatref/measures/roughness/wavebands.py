@@ -13,6 +13,7 @@ from floatref.measures.roughness.agreement import Agreement, cross_correlation
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import FloatArray
+from floatref.values.display.similar_names import suggest
 
 
 class Waveband(NamedTuple):
@@ -67,7 +68,7 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
     long end is not above two intervals. Source: 2.1.5.2.
     """
     if band not in WAVEBANDS:
-        raise InputError(f"band {band!r}: unknown; known: {', '.join(BANDS)}")
+        raise InputError(f"band {band!r}: unknown; {suggest(band, BANDS, 'known:')}")
     limits = WAVEBANDS[band]
     _check_cutoff(limits.long_m, interval_m)
     values = check_elevation(elevation, interval_m)

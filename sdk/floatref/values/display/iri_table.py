@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from floatref.errors import InputError
 from floatref.values.display.html_table import html_table
-from floatref.values.display.short_text import NO_VALUE, hint_at, join_some, percent, shorten
+from floatref.values.display.short_text import NO_VALUE, join_some, percent, shorten
+from floatref.values.display.similar_names import hint_at
 
 COLUMNS = ("wheel path", "IRI of valid points (m/km)", "share that counts", "all points (m/km)")
 

@@ -1,7 +1,6 @@
 """Short texts about values: bounded in length, on one line, whatever the names in a file are."""
 
-from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -26,12 +25,6 @@ def join_some(items: Sequence[str], most: int = MOST_LISTED) -> str:
     """Return the first ``most`` of ``items``, with commas, and the number of the others."""
     others = len(items) - most
     return ", ".join(items[:most]) + (f" and {others} more" if others > 0 else "")
-
-
-def hint_at(name: object, known: Iterable[str]) -> str:
-    """Return "; did you mean …?" with the nearest of ``known``, empty if no name is near."""
-    near = get_close_matches(str(name), list(known), n=1)
-    return f"; did you mean {near[0]}?" if near else ""
 
 
 def share_of(marks: BoolArray) -> float:

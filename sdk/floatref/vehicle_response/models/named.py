@@ -2,10 +2,10 @@
 
 from collections.abc import Mapping
 from dataclasses import fields
-from difflib import get_close_matches
 from types import MappingProxyType
 
 from floatref.errors import InputError
+from floatref.values.display.similar_names import suggest
 from floatref.values.vehicle_setup import VehicleSetup
 from floatref.vehicle_response.models.half_car import HALF_CAR, HalfCar
 from floatref.vehicle_response.models.model import VehicleModel
@@ -36,13 +36,15 @@ def parameters_of(vehicle: VehicleSetup) -> ParameterSet:
     """Return the parameters that a recording's setup gives; InputError as `model_of`."""
     if vehicle.model not in MODELS:
         raise InputError(
-            f"setup.vehicle.model: {vehicle.model!r} is unknown{_hint(vehicle.model, MODELS)}"
+            f"setup.vehicle.model: {vehicle.model!r} is unknown; "
+            f"{suggest(vehicle.model, MODELS, 'known:')}"
         )
     parameters = MODELS[vehicle.model]
     names = [field.name for field in fields(parameters)]
     for name in vehicle.parameters:
         if name not in names:
-            raise InputError(f"model {vehicle.model}: no parameter {name!r}{_hint(name, names)}")
+            known = suggest(name, names, "known:")
+            raise InputError(f"model {vehicle.model}: no parameter {name!r}; {known}")
     missing = [n for n in names if n not in vehicle.parameters and n not in MAY_BE_LEFT_OUT]
     # A mixture of the parameters of two vehicles is not a vehicle.
     if missing and (vehicle.parameters or parameters is QuarterCar):
@@ -50,8 +52,3 @@ def parameters_of(vehicle: VehicleSetup) -> ParameterSet:
             f"model {vehicle.model}: {', '.join(missing)} missing; give every parameter"
         )
     return parameters(**vehicle.parameters)
-
-
-def _hint(name: str, known: Mapping[str, object] | list[str]) -> str:
-    near = get_close_matches(name, known, n=1)
-    return f"; did you mean {near[0]}?" if near else f"; known: {', '.join(known)}"

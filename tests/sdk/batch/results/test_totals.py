@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from floatref.batch.jobs.job import Job
 from floatref.batch.results.record import Effort, Record, Row
-from floatref.batch.results.totals import ROUGHEST, Tally
+from floatref.batch.results.totals import FIRST_WARNINGS, ROUGHEST, Tally
 
 ROW = Row("left", 0, 0.0, 100.0, nan, nan, 1.0, nan, 0.0, 1.0, 1.0)
 
@@ -114,3 +114,14 @@ def test_what_is_left_behind_the_last_segment_is_not_among_the_roughest() -> Non
     tally.add(job("a"), record("a", rows=(ROW, rest)))
     tally.add(job("b"), record("b", rows=(short,)))
     assert [iri for iri, _, _ in tally.roughest] == [5.0, 1.0]
+
+
+@given(st.lists(st.integers(0, 4), max_size=9))
+def test_the_first_warnings_are_stored_and_all_are_counted(counts: list[int]) -> None:
+    tally, lines = Tally(), []
+    for file, count in enumerate(counts):
+        mine = tuple(f"line {number}" for number in range(count))
+        tally.add(job(str(file)), record(str(file), warnings=mine))
+        lines += [(str(file), line) for line in mine]
+    assert tally.warnings == len(lines)
+    assert tally.first_warnings == lines[:FIRST_WARNINGS]

@@ -122,7 +122,10 @@ def test_warnings_go_to_stderr(tmp_path: Path, written: Written, run: Runs) -> N
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        (["--channel", "rol_rate"], "channel rol_rate: cannot be analysed here; there are roll_"),
+        (
+            ["--channel", "rol_rate"],
+            "channel rol_rate: cannot be analysed here; did you mean roll_",
+        ),
         (["--channel", "distance"], "channel distance: cannot be analysed here"),
         (["--between", "10", "1"], "0 cluster times from 10 s to 1 s"),
         (["--between", "x", "1"], "'x' is not a valid float"),

@@ -113,10 +113,10 @@ def test_tables_are_plain_and_show_every_part(two: Path, ran) -> None:
     assert "\x1b" not in text
     for title in ("Roughness", "Localized roughness", "Bumps and dips of left and right"):
         assert f"{title}\n" in text
-    for title in ("Wavebands", "Sections", "Rated length", "Settings"):
+    for title in ("Wavebands", "Sections", "Rated length *", "Settings"):
         assert f"\n{title}\n" in text
     assert "mean (MRI)" in text
-    assert re.search(r"^ left +\S+ +\S+ +\S+ +98\.5$", text, re.MULTILINE)
+    assert re.search(r"^ left \* +\S+ +\S+ +\S+ +\S+ +98\.5$", text, re.MULTILINE)
 
 
 def test_nothing_above_the_limits_is_one_line(two: Path, ran) -> None:

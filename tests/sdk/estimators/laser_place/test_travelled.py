@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from tests.sdk.estimators.road_slope.test_stretches import STEP, drive_at, speeds, stop
 
-from floatref.estimators.laser_place.travelled import Travelled, rolled_back
+from floatref.estimators.laser_place.travelled import MOMENT_S, Travelled, rolled_back
 from floatref.estimators.road_slope.readings import Drive
 from floatref.estimators.road_slope.stretches import find_stretches
 
@@ -15,9 +15,9 @@ SPEED, BEGIN, SIZE = st.floats(2.0, 30.0), st.integers(20, 2000), st.integers(1,
 
 def driven(drive: Drive, travelled: Travelled) -> Drive:
     """Return the drive that is known by ``travelled``."""
-    distance, lost, _ = travelled
-    speed = np.gradient(distance, STEP)
-    return drive._replace(distance=distance, speed=speed, lost=lost)
+    speed = np.gradient(travelled.distance, STEP)
+    lost = travelled.lost | travelled.guessed
+    return drive._replace(distance=travelled.distance, speed=speed, lost=lost)
 
 
 def without_counts(drive: Drive, begin: int, end: int) -> Travelled:
@@ -48,7 +48,7 @@ def test_a_leap_at_one_speed_is_no_brake(
 ) -> None:
     drive = drive_at(speeds((60, speed), (1, speed)))
     found = leapt(drive, at, size_m, share)
-    assert found.lost[at]
+    assert found.guessed[at]
     assert find_stretches(driven(drive, found)) == []
 
 
@@ -88,17 +88,44 @@ def test_the_shortest_runs_have_what_is_known_of_them(count: int, lost: int) -> 
     counted = 0.2 * np.arange(count)
     counted[: min(lost, count)] = np.nan
     found = Travelled.of(counted, np.zeros(count, np.bool_), STEP)
+    # Nothing is known before the first count.
     np.testing.assert_array_equal(found.lost | found.rolled, np.isnan(counted))
     known = ~np.isnan(counted)
     np.testing.assert_allclose(found.distance[known], counted[known])
 
 
-def test_a_loss_of_more_than_a_second_is_left_as_it_is() -> None:
-    """It may hide a stop, so nothing is made up."""
-    drive = drive_at(speeds((20, 15.0), (1, 15.0)))
-    found = without_counts(drive, 300, 300 + round(1.2 / STEP))
-    ways = np.diff(found.distance[300 : 300 + round(1.2 / STEP)])
-    assert ways == pytest.approx(0.0, abs=0.01)
+@given(speed=st.floats(5.0, 30.0), lost_s=st.floats(0.3, 3.0))
+def test_a_loss_is_bridged_up_to_a_second(speed: float, lost_s: float) -> None:
+    """A longer one may hide a stop, so nothing is made up."""
+    assume(abs(lost_s - 1.0) > 0.03)
+    drive = drive_at(speeds((20, speed), (1, speed)))
+    size = round(lost_s / STEP)
+    found = without_counts(drive, 300, 300 + size)
+    travel = found.distance[300 + size] - found.distance[300]
+    assert travel == pytest.approx(speed * lost_s if lost_s < 1.0 else 0.0, abs=2 * speed * STEP)
+    assert (found.guessed if lost_s < 1.0 else found.lost)[300 : 300 + size].all()
+
+
+@given(speed=SPEED, size=st.integers(1, 20))
+def test_a_moment_without_counts_is_no_guess_and_a_leap_is_one(speed: float, size: int) -> None:
+    drive = drive_at(speeds((20, speed), (1, speed)))
+    counted = drive.distance.copy()
+    counted[300 : 300 + size] = np.nan
+    found = Travelled.of(counted, np.zeros(counted.size, np.bool_), STEP)
+    assert found.guessed.any() == (size * STEP > MOMENT_S)
+    assert leapt(drive, 300, 1.0, 0.5).guessed[300]
+
+
+@given(speed=st.floats(5.0, 20.0), phase=st.floats(0.0, 1.0), size_m=st.floats(2.0, 10.0))
+def test_the_speed_beside_a_leap_is_that_of_several_coarse_counts(
+    speed: float, phase: float, size_m: float
+) -> None:
+    """An encoder of 0.25 m a count stands still for whole bins between its counts."""
+    true_m = drive_at(speeds((20, speed), (1, speed))).distance
+    counted = 0.25 * np.floor(true_m / 0.25 + phase)
+    counted[400:] += size_m
+    found = Travelled.of(counted, np.isin(np.arange(counted.size), [399, 400]), STEP)
+    assert np.abs(found.distance - found.distance[0] - true_m + true_m[0]).max() < 1.0
 
 
 @given(braking=st.floats(2.0, 8.0), standing_s=st.floats(0.0, 5.0), ends=st.booleans())
@@ -141,6 +168,9 @@ def test_what_is_lost_within_a_standstill_is_no_travel(
     begin = int(stood[0]) + round(ends[0] / STEP)
     lost, found = lost_at(drive, begin, begin + round(ends[1] / STEP))
     np.testing.assert_array_equal(found, lost)
+    counted = np.where(lost, np.nan, drive.distance)
+    whole = Travelled.of(counted, np.zeros(counted.size, np.bool_), STEP)
+    assert not (whole.lost | whole.guessed).any()
 
 
 @given(braking=st.floats(0.7, 8.0), early_s=st.floats(1.0, 3.0), standing_s=st.floats(1.0, 60.0))

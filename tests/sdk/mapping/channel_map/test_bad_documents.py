@@ -64,7 +64,7 @@ Refusal = Callable[[Path], str]
         (HEAD + LASER + 'file = "gps"', 'file "gps": not in the map\'s files (it has no files)'),
         (HEAD + "[setup]\nprofile_interval_m = 0\n" + LASER, "profile_interval_m is 0; expected"),
         (HEAD + "[setup.vehicle]\nmodel = 'car'\n" + LASER, "setup.vehicle has no parameters"),
-        (VEHICLE + "x = 1.7\n" + LASER, 'setup.vehicle has the unknown key "x"; known: model, x_m'),
+        (VEHICLE + "x = 1.7\n" + LASER, 'setup.vehicle has the unknown key "x"; did you mean x_m?'),
         (VEHICLE + "x_m = 1720\n" + LASER, "setup.vehicle.x_m is 1720; expected the model's own"),
         (VEHICLE + "parameters.a = 'b'\n" + LASER, 'parameters.a is "b"; expected a number'),
         (HEAD + "[source]\noptions = { dbc = '/etc/x' }\n" + LASER, "dbc is not an option"),

@@ -6,7 +6,6 @@ from hypothesis import strategies as st
 
 from floatref.values.display.short_text import (
     LONGEST_NAME,
-    hint_at,
     in_mm_or_m,
     join_some,
     percent,
@@ -40,12 +39,6 @@ def test_items_that_are_not_listed_are_counted(items: list[str], most: int) -> N
     text = join_some(items, most)
     assert text.startswith(", ".join(items[:most]))
     assert text.endswith(f" and {len(items) - most} more") == (len(items) > most)
-
-
-def test_the_nearest_name_is_suggested_and_a_far_one_is_not() -> None:
-    assert hint_at("lift", ["left", "right"]) == "; did you mean left?"
-    assert hint_at("xyz", ["left", "right"]) == ""
-    assert hint_at(0, ["left"]) == ""
 
 
 def test_quantities_have_their_unit() -> None:

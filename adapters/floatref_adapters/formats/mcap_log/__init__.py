@@ -1,0 +1,1 @@
+"""MCAP files of recordings, for PlotJuggler and Foxglove, out and in."""

@@ -1,0 +1,1 @@
+"""Tab-separated text of profile viewers: a pair of columns for every channel."""

@@ -1,0 +1,1 @@
+"""`floatref pipelines`: which pipeline for which sensors, and all of them."""

@@ -1,0 +1,1 @@
+"""Layers of lines for a GIS: GeoJSON and GeoPackage."""

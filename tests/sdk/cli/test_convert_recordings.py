@@ -1,0 +1,101 @@
+"""`floatref convert` of recordings: to files for other programs and back, and what is refused."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from floatref.files import read_profile, read_recording, write_profile, write_recording
+from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.recording import Channel, Recording, Setup
+
+
+def drive() -> Recording:
+    """Twenty metres at 5 m/s with a drop-out of the laser, and fixes of a receiver."""
+    count = 4000
+    clock, fixes = UniformClock.of(1000.0), StampedClock.of(np.arange(40) * 0.1)
+    height = 0.3 + 1e-4 * np.random.default_rng(2).normal(size=count)
+    height[500:520] = np.nan
+    force = 9.80665 + 0.1 * np.random.default_rng(3).normal(size=count)
+    channels = (
+        Channel.of("vertical_specific_force", force, clock, "left"),
+        Channel.of("height", height, clock, "left"),
+        Channel.of("distance", np.arange(count) * 0.005, clock),
+        Channel.of("gnss_latitude", np.full(40, 0.8), fixes),
+    )
+    return Recording(channels, Setup(profile_interval_m=0.05), "maker", "model")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("recordings")
+    write_recording(drive(), place / "run")
+    track = ProfileTrack.of("left", [0.0, 0.1, 0.2])
+    write_profile(Profile(0.05, (track,)), place / "road")
+    return place
+
+
+def content(place: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in place.iterdir()}
+
+
+def test_through_mcap_a_directory_comes_back_byte_for_byte(folder: Path, tmp_path: Path, ran):
+    ran("convert", folder / "run", "--out", tmp_path / "run.mcap")
+    ran("convert", tmp_path / "run.mcap", "--out", tmp_path / "back")
+    assert content(tmp_path / "back") == content(folder / "run")
+
+
+def test_an_mcap_file_is_processed_as_the_recording_is(folder: Path, tmp_path: Path, ran, reported):
+    ran("convert", folder / "run", "--out", tmp_path / "run.mcap")
+    options = ("--pipeline", "temporal-basic", "--out")
+    one = reported("process", folder / "run", *options, tmp_path / "one")
+    other = reported("process", tmp_path / "run.mcap", *options, tmp_path / "other")
+    assert one["tracks"] == other["tracks"]
+    assert read_profile(tmp_path / "one").tracks[0].elevation.tobytes() == (
+        read_profile(tmp_path / "other").tracks[0].elevation.tobytes()
+    )
+
+
+def test_a_table_names_channels_units_samples_and_times(folder: Path, tmp_path: Path, ran):
+    told = ran("convert", folder / "run", "--out", tmp_path / "run.mf4").output
+    assert (tmp_path / "run.mf4").read_bytes()[:8] == b"MDF     "
+    assert "left.vertical_specific_force" in told
+    assert "m/s^2" in told
+
+
+def test_a_native_file_with_its_map_becomes_a_directory(folder: Path, tmp_path: Path, ran):
+    ran("convert", folder / "run", "--out", tmp_path / "run.mf4")
+    drafted = ran("channels", tmp_path / "run.mf4", "--draft-map").output
+    (tmp_path / "map.toml").write_text(drafted, encoding="utf-8")
+    options = ("--map", tmp_path / "map.toml")
+    ran("convert", tmp_path / "run.mf4", "--out", tmp_path / "again", *options)
+    found, expected = read_recording(tmp_path / "again"), drive()
+    for channel in expected.channels:
+        np.testing.assert_array_equal(found.channel(*channel.id).values, channel.values)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["run", "--out", "o.erd"], "run: a recording, and .erd holds profiles; make one of it"),
+        (["run", "--out", "o", "--format", "csv"], "a recording, and csv holds profiles"),
+        (["road", "--out", "o.mcap"], "road: no adapter recognises it"),
+        (["gone", "--out", "o.mcap"], "gone: not found"),
+        (["run", "--out", "run.mcap"], "exists"),
+        (["run", "--out", "run/o.mcap"], "lies in, the source itself"),
+        (["text.csv", "--out", "o.mf4"], "text.csv"),
+        (["damaged.mcap", "--out", "o.mf4"], "damaged.mcap: cannot be read"),
+        (["road", "--out", "o.csv", "--map", "m.toml"], "--adapter and --map read a recording"),
+    ],
+)
+def test_what_cannot_be_done_is_one_line_and_leaves_nothing(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], message: str, refused
+) -> None:
+    monkeypatch.chdir(folder)
+    Path("run.mcap").write_bytes(b"there")
+    Path("damaged.mcap").write_bytes(b"\x89MCAP0\r\n and no more")
+    Path("text.csv").write_text("a,b\n1,2\n")
+    before = {path: path.stat().st_mtime_ns for path in folder.rglob("*")}
+    assert message in refused("convert", *arguments)
+    assert {path: path.stat().st_mtime_ns for path in folder.rglob("*")} == before
