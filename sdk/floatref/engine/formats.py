@@ -108,7 +108,7 @@ def guard(name: str, source: Path) -> Iterator[None]:
     except (Exception, SystemExit) as error:
         # contextlib treats a RuntimeError caused by a StopIteration as the StopIteration itself.
         cause = None if isinstance(error, StopIteration) else error
-        raise PluginError(_failure(name, source, error)) from cause
+        raise PluginError(_failure(f"adapter {name}", source, error)) from cause
 
 
 def _check(found: Any, reader: Adapter, source: Path, kind: type[T], what: str) -> T:
@@ -121,12 +121,13 @@ def _recognise(adapter: Adapter, source: Path) -> bool:
     try:
         return bool(adapter.recognises(source))
     except Exception as error:
-        plugins().reports.append(_failure(adapter.name, source, error))
+        plugins().reports.append(_failure(f"adapter {adapter.name}", source, error))
         return False
 
 
-def _failure(name: str, source: Path, error: BaseException) -> str:
-    return f"adapter {name}: {source}: {type(error).__name__}: {' '.join(str(error).split())}"
+def _failure(reader: str, path: Path, error: BaseException) -> str:
+    """Return one line on an ``error`` that ``reader``, an adapter or a format, raised."""
+    return f"{reader}: {path}: {type(error).__name__}: {' '.join(str(error).split())}"
 
 
 def profile_of(path: Path) -> Profile:
@@ -166,12 +167,6 @@ def _refuse_recording(path: Path) -> None:
         )
 
 
-def failure(name: str, path: Path, error: Exception) -> str:
-    """Return one line on an ``error`` that the format called ``name`` raised."""
-    reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    return f"format {name}: {path}: {reason}"
-
-
 def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
     try:
         return bool(form.recognises(path))
@@ -179,7 +174,7 @@ def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
         # A name that cannot be opened: reading it raises the error.
         return False
     except Exception as error:
-        plugins().reports.append(failure(form.name, path, error))
+        plugins().reports.append(_failure(f"format {form.name}", path, error))
         return False
 
 
@@ -189,7 +184,7 @@ def _read(form: ProfileFormat, path: Path) -> Profile:
     except (FloatrefError, OSError):
         raise
     except Exception as error:
-        raise PluginError(failure(form.name, path, error)) from error
+        raise PluginError(_failure(f"format {form.name}", path, error)) from error
     if not isinstance(profile, Profile):
         raise PluginError(f"format {form.name}: {path}: gave no profile")
     return profile
@@ -258,6 +253,6 @@ def write_file(
         except (FloatrefError, OSError):
             raise
         except Exception as error:
-            raise PluginError(failure(name, out, error)) from error
+            raise PluginError(_failure(f"format {name}", out, error)) from error
         if not beside.is_file():
             raise PluginError(f"format {name}: {out}: wrote no file")

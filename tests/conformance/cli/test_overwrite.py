@@ -32,6 +32,8 @@ TARGETS = {
     "simulate": ("simulate", "case.json", "--out", "old"),
     "export": ("export", "--out", "old"),
     "sample": ("sample", "network", "--out", "old"),
+    "iri": ("iri", "road", "--gis", "old.geojson", "--recording", "run"),
+    "roughness": ("roughness", "road", "--gis", "old.geojson", "--recording", "run"),
 }
 OPTION = ", or replace it with --overwrite"
 
@@ -51,7 +53,8 @@ def folder(tmp_path, monkeypatch):
     write_recording(
         Recording((Channel.of("height", np.zeros(99), UniformClock.of(9.0)),)), tmp_path / "run"
     )
-    (tmp_path / "old").write_text("mine")
+    for name in ("old", "old.geojson"):
+        (tmp_path / name).write_text("mine")
     return tmp_path
 
 
@@ -61,10 +64,11 @@ def test_the_option_is_named_where_there_is_one(name, folder):
     before = sorted(folder.rglob("*"))
     ended = CliRunner().invoke(group, TARGETS[name])
     assert (ended.exit_code, ended.stdout, ended.stderr.count("\n")) == (2, "", 1)
-    assert "old: exists; choose another name" in ended.stderr
+    target = next(word for word in TARGETS[name] if word.startswith("old"))
+    assert f"{target}: exists; choose another name" in ended.stderr
     assert (OPTION in ended.stderr) == has_overwrite(group, name)
     assert sorted(folder.rglob("*")) == before
-    assert (folder / "old").read_text() == "mine"
+    assert (folder / target).read_text() == "mine"
 
 
 def test_no_command_with_that_option_is_left_out():

@@ -13,7 +13,6 @@ READERS = {
     "roughness": lambda source: ("roughness", source),
     "straightedge": lambda source: ("straightedge", source),
     "compare": lambda source: ("compare", source, source),
-    "convert": lambda source: ("convert", source, "--out", "new.csv"),
 }
 SOURCES = {"run": "recording", "run/recording.json": "recording"} | {
     f"run{suffix}": adapter for suffix, adapter in ((".mf4", "mdf4"), (".h5", "hdf5"))
@@ -50,3 +49,14 @@ def test_a_recording_is_refused_with_what_to_do(
 def test_a_table_that_is_no_profile_keeps_its_own_error(tmp_path: Path, refused) -> None:
     (tmp_path / "table.csv").write_text("time_s,height_mm\n0,1\n", encoding="utf-8")
     assert "distance_m" in refused("iri", tmp_path / "table.csv")
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_convert_says_what_a_recording_may_become(
+    source: str, folder: Path, monkeypatch: pytest.MonkeyPatch, refused
+) -> None:
+    monkeypatch.chdir(folder)
+    line = refused("convert", source, "--out", "new.csv")
+    assert line.startswith(f"Error: {source}: ")
+    assert "floatref process" in line
+    assert not Path("new.csv").exists()
