@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path
 
-from floatref.errors import InputError
+from floatref.errors import InputError, TargetExists
 from floatref.files import fingerprint, write_recording
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
@@ -92,7 +92,7 @@ def _record(check: Check, case: Case, bench: ExportBench) -> None:
 
 def _make(folder: Path) -> None:
     if folder.exists() or folder.is_symlink():
-        raise InputError(f"{folder}: exists; choose another name")
+        raise TargetExists(f"{folder}: exists; choose another name")
     try:
         folder.mkdir()
     except OSError as error:

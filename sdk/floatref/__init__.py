@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from floatref.errors import InputError as InputError
     from floatref.errors import PluginError as PluginError
     from floatref.errors import StageError as StageError
+    from floatref.errors import missing_extra as missing_extra
     from floatref.estimators.kalman import Noise as Noise
     from floatref.estimators.kalman import Plan as Plan
     from floatref.estimators.road_prior import RoadPrior as RoadPrior
@@ -180,6 +181,7 @@ _PUBLIC = {
     "hookimpl": "interfaces.markers",
     "join_blocks": "values.block",
     "make_stage": "engine.lookup",
+    "missing_extra": "errors",
     "on_common_grid": "measures",
     "pipeline": "engine.lookup",
     "pipeline_capabilities": "engine.run",

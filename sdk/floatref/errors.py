@@ -18,6 +18,19 @@ class InputError(FloatrefError, ValueError):
     """A file, channel, value or setting that cannot be used; the text says what to do."""
 
 
+class TargetExists(InputError):
+    """A target that exists and is not to be replaced."""
+
+
+def missing_extra(task: str, extra: str) -> InputError:
+    """Return the error of a ``task`` that needs the packages of ``extra``, with how to get them.
+
+    No package index has floatref: an extra is installed in a clone. Double quotes are those
+    that every shell understands, that of Windows included.
+    """
+    return InputError(f'{task}; run in a clone of floatref: pip install -e ".[{extra}]"')
+
+
 class StageError(FloatrefError, RuntimeError):
     """A stage was called out of order or with an incomplete set of calls."""
 

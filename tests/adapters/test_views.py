@@ -127,5 +127,5 @@ def test_a_recording_has_a_dimension_for_every_clock(recording):
 def test_a_missing_library_is_named_with_the_extra(monkeypatch, recording, view, library):
     monkeypatch.setitem(sys.modules, library, None)
     given = recording if view.__name__.startswith("recording") else PROFILE
-    with pytest.raises(InputError, match=rf"{view.__name__} needs {library}; install floatref\["):
+    with pytest.raises(InputError, match=rf"{view.__name__} needs {library}; .*\.\[adapters\]"):
         view(given)

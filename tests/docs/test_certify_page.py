@@ -7,12 +7,12 @@ from pathlib import Path
 import click
 
 from floatref.files.schema import enforce_schema
+from floatref.measures.locating.placing import MAX_OFFSET_M
+from floatref.measures.locating.profile_units import DISTANCE_UNITS, HEIGHT_UNITS
+from floatref_conformance.certify.fitting.fit import LONGEST_M, SHORTEST_M, WINDOW_M
 from floatref_conformance.certify.judging import causes
 from floatref_conformance.certify.judging.criteria import MISSING_PERCENT
 from floatref_conformance.certify.judging.limits import limits_of
-from floatref_conformance.certify.locating.fit import LONGEST_M, SHORTEST_M, WINDOW_M
-from floatref_conformance.certify.locating.placing import MAX_OFFSET_M
-from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS, HEIGHT_UNITS
 from floatref_conformance.certify.worksheet import keeping
 from floatref_conformance.checks.stretches import END_M
 from floatref_conformance.checks.verdict import Verdict

@@ -43,6 +43,7 @@ def test_the_readme_counts_the_checks() -> None:
     assert "Fifteen checks" in README
 
 
+@pytest.mark.posix
 def test_ci_runs_the_second_command() -> None:
     script = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
     (extraction,) = re.findall(r"^tests=\$\((.+)\)$", script, re.M)

@@ -1,8 +1,6 @@
 """Two engines of somebody else at a stop: ruined as they are, mended by one stage of ours."""
 
 import importlib.util
-import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -14,14 +12,22 @@ import floatref
 from floatref.measures import short_interval_roughness
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
-from floatref_conformance.proving_ground import scenario_of_run, simulate
-from floatref_reference.chapter_5.section_5_8 import captured
 
 pytestmark = pytest.mark.slow
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
-G = 9.80665
-RATE_HZ, SPACING_M, PULSE_M = 4000.0, 0.024, 0.0003
+
+
+def load(file):
+    """Return the program ``file`` as a module."""
+    spec = importlib.util.spec_from_file_location(file.stem, file)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+PROGRAM = load(EXAMPLES / "before_and_after.py")
+G, RATE_HZ, SPACING_M = PROGRAM.G, PROGRAM.RATE_HZ, PROGRAM.SPACING_M
 PIPELINES = {
     "Our high-pass before its integrals": "temporal-adaptive-hpf-spatial-backward",
     "All three": "spatial-hpf-timer-distortion-reflection",
@@ -31,16 +37,7 @@ PIPELINES = {
 @pytest.fixture(scope="module")
 def stop():
     """Acceleration, height and distance of one wheel path over a stop of 5.8 s, in SI units."""
-    scenario = scenario_of_run(
-        "sg_5.8s_0.20g", imu=False, gnss=False, tracks=("main",), rate_hz=RATE_HZ
-    )
-    recording = simulate(scenario).recording
-    force = recording.channel("vertical_specific_force", "main").values
-    return (
-        force - G,
-        recording.channel("height", "main").values,
-        recording.channel("distance").values,
-    )
+    return PROGRAM.drive()
 
 
 @pytest.fixture(scope="module")
@@ -58,53 +55,23 @@ def engine(tmp_path):
     """Return a maker of an engine as it is, or with the change under a heading of its page."""
 
     def make(name, heading=None):
+        made = PROGRAM.make_engine(name, tmp_path, heading)
         source = (EXAMPLES / name / "engine.py").read_text(encoding="utf-8")
-        file = tmp_path / "engine.py"
-        file.write_text(source, encoding="utf-8")
-        if heading is not None:
-            change = tmp_path / "change.patch"
-            change.write_text(changes(name)[heading], encoding="utf-8")
-            alone = {**os.environ, "GIT_CEILING_DIRECTORIES": str(tmp_path.parent)}
-            subprocess.run(["git", "apply", "change.patch"], cwd=tmp_path, env=alone, check=True)
-            assert file.read_text(encoding="utf-8") != source
-        spec = importlib.util.spec_from_file_location("engine", file)
-        module = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(module)
-        return module
+        written = (tmp_path / "engine.py").read_text(encoding="utf-8")
+        assert (written == source) == (heading is None)
+        return made
 
     return make
 
 
-def changes(name):
-    """Return the changes of an engine's page by heading."""
-    page = (EXAMPLES / name / "README.md").read_text(encoding="utf-8")
-    return dict(re.findall(r"^## ([^\n]+)\n.*?^```diff\n(.*?)^```$", page, re.M | re.S))
-
-
-def in_time(engine, drive):
+def in_time(engine, driven):
     """Profile in m of the temporal engine, from a record in its units."""
-    return 0.001 * engine.run(temporal_record(engine, drive))
+    return PROGRAM.profile_of("temporal_engine", engine, driven)
 
 
-def temporal_record(engine, drive):
-    acceleration, height, distance = drive
-    record = np.empty(height.size, engine.SAMPLE)
-    record["accel_g"], record["range_mm"] = 1.0 + acceleration / G, 1000.0 * height
-    record["pulses"] = np.round(distance / PULSE_M) - round(distance[0] / PULSE_M)
-    return record
-
-
-def over_distance(engine, drive):
+def over_distance(engine, driven):
     """Profile in m of the spatial engine, from a record in its units."""
-    return 0.001 * engine.run(spatial_record(drive))
-
-
-def spatial_record(drive):
-    """Return the lines of ``drive`` that the spatial engine reads."""
-    acceleration, height, step = (x.astype(float) for x in captured(*drive, RATE_HZ, SPACING_M))
-    timer = np.round(1e6 * np.cumsum(step)).astype(int)
-    columns = timer.tolist(), (1e4 * acceleration).tolist(), (1e6 * height).tolist()
-    return [f"{t},{a!r},{h!r}" for t, a, h in zip(*columns, strict=True)]
+    return PROGRAM.profile_of("spatial_engine", engine, driven)
 
 
 def peak(profile):
@@ -130,7 +97,7 @@ def test_the_stop_ruins_the_temporal_engine_as_it_is(engine, stop):
     assert peak(in_time(engine("temporal_engine"), stop)) > 100.0
 
 
-@pytest.mark.parametrize("heading", changes("temporal_engine"))
+@pytest.mark.parametrize("heading", PROGRAM.changes("temporal_engine"))
 def test_one_stage_saves_the_temporal_engine(engine, stop, heading):
     assert peak(in_time(engine("temporal_engine", heading), stop)) < 5.0
 
@@ -177,8 +144,8 @@ def test_the_spatial_engine_with_all_three_is_our_pipeline(engine, slow_part):
 
 def test_the_engines_run_as_programs(engine, slow_part, tmp_path):
     module = engine("temporal_engine")
-    (tmp_path / "run.bin").write_bytes(temporal_record(module, slow_part).tobytes())
-    lines = "\n".join(spatial_record(slow_part))
+    (tmp_path / "run.bin").write_bytes(PROGRAM.temporal_record(module, slow_part).tobytes())
+    lines = "\n".join(PROGRAM.spatial_record(slow_part))
     for name, argument, given in (
         ("temporal_engine", "run.bin", None),
         ("spatial_engine", "-", lines),
@@ -195,3 +162,17 @@ def test_the_engines_know_nothing_of_ours():
     for source in EXAMPLES.glob("*/engine.py"):
         assert "import floatref" not in source.read_text(encoding="utf-8")
         assert "from floatref" not in source.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["temporal_engine", "spatial_engine"])
+def test_one_command_shows_both_as_the_page_has_it(name):
+    command = [sys.executable, "docs/examples/before_and_after.py", name]
+    found = subprocess.run(
+        command, cwd=EXAMPLES.parents[1], capture_output=True, text=True, check=True
+    )
+    page = (EXAMPLES / name / "README.md").read_text(encoding="utf-8")
+    assert f"python docs/examples/before_and_after.py {name}" in page
+    assert found.stdout in page
+    first, *changed = (float(line.split()[-2]) for line in found.stdout.splitlines()[1:])
+    assert first > 100.0
+    assert max(changed) < 20.0

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
-from floatref import InputError
+from floatref import InputError, missing_extra
 
 
 @contextmanager
@@ -23,4 +23,4 @@ def library(name: str, task: str) -> Any:
         return import_module(name)
     except ImportError as error:
         package = name.split(".")[0]
-        raise InputError(f"{task} needs {package}; install floatref[adapters]") from error
+        raise missing_extra(f"{task} needs {package}", "adapters") from error

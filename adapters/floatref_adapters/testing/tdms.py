@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import Channel, Recording
+from floatref_adapters.shared.refusals import library
 from floatref_adapters.testing.file_writing import check_quanta, replace_file
 from floatref_adapters.testing.grouping import ClockGroup, by_clock, count_quanta
 
@@ -23,18 +24,16 @@ def write_tdms(recording: Recording, path: Path, quanta: Mapping[str, float] | N
     `time_s`. A channel of ``quanta`` is stored in integers with a linear scale; ValueError if
     it has missing samples, for which TDMS has no mark.
     """
-    from nptdms import TdmsWriter
-
+    nptdms = library("nptdms", "writing TDMS")
     check_quanta(recording, quanta)
-    with replace_file(path) as beside, TdmsWriter(str(beside)) as writer:
+    with replace_file(path) as beside, nptdms.TdmsWriter(str(beside)) as writer:
         for group in by_clock(recording):
             for objects in _segments(group, quanta):
                 writer.write_segment(objects)
 
 
 def _segments(group: ClockGroup, quanta: Mapping[str, float] | None) -> Iterator[list[Any]]:
-    from nptdms import ChannelObject
-
+    channel_object = library("nptdms", "writing TDMS").ChannelObject
     stored = [(str(c.id), *_store(c, quanta)) for c in group.channels]
     timing = {"wf_increment": group.step_s, "wf_start_offset": group.start_s}
     if group.times_s is not None:
@@ -42,7 +41,7 @@ def _segments(group: ClockGroup, quanta: Mapping[str, float] | None) -> Iterator
         stored.append(("time_s", group.times_s, {"unit_string": "s"}))
     for first in range(0, group.count, ROWS):
         yield [
-            ChannelObject(group.name, name, values[first : first + ROWS], {**own, **timing})
+            channel_object(group.name, name, values[first : first + ROWS], {**own, **timing})
             for name, values, own in stored
         ]
 

@@ -6,6 +6,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from floatref.errors import InputError
+from floatref.measures.locating.placing import MAX_OFFSET_M, apply_placement, place
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.contents import (
     Criterion,
@@ -19,9 +20,7 @@ from floatref_conformance.certify.judging.scales import judge_readings
 from floatref_conformance.certify.judging.second_opinion import confirm_worksheet
 from floatref_conformance.certify.judging.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.judging.stationary import stationary_sheet
-from floatref_conformance.certify.locating.placing import apply_placement, place
 from floatref_conformance.certify.plan.converting import Converted, convert_all
-from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
 from floatref_conformance.certify.plan.plan_document import (
     Plan,
     Processing,

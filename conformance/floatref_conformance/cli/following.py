@@ -10,12 +10,7 @@ from typing import NoReturn
 import click
 
 from floatref_conformance.checks.verdict import RunResult
-from floatref_conformance.cli.no_verdict import (
-    FAULT_OF_THE_SUITE,
-    INTERRUPTED,
-    drop_output,
-    in_one_line,
-)
+from floatref_conformance.cli.no_verdict import FAULT_OF_THE_SUITE, drop_output, in_one_line
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.events import Event, Renderer, RunFinished
 from floatref_conformance.judge.in_processes import run_in_processes
@@ -50,10 +45,6 @@ def follow(
     except SuiteError as fault:
         terminal.close()
         _end_at_fault(fault)
-    except KeyboardInterrupt:
-        terminal.close()
-        click.echo("Interrupted: no verdict", err=True)
-        raise click.exceptions.Exit(INTERRUPTED) from None
     finally:
         terminal.close()
     for event in finished:

@@ -10,11 +10,15 @@ COMMANDS = {
     "list": ("floatref_conformance.cli.list:list_", "list the checks and the devices"),
     "scenario": ("floatref_conformance.cli.scenario:scenario", "list the keys of a scenario file"),
     "simulate": ("floatref_conformance.cli.simulate:simulate", "write a simulated recording"),
+    "sample": ("floatref_conformance.cli.sample:sample", "write data to try a command on"),
     "replay": ("floatref_conformance.cli.replay:replay", "run one kept case again"),
     "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),
     "explain": ("floatref_conformance.cli.explain:explain", "explain what a check asks, and why"),
     "selftest": ("floatref_conformance.cli.selftest:selftest", "test the suite itself"),
-    "certify": ("floatref_conformance.cli.certify:certify", "judge a profiler from recorded runs"),
+    "certify": (
+        "floatref_conformance.cli.certify.command:certify",
+        "judge a profiler from recorded runs",
+    ),
     "table": ("floatref_conformance.cli.table:table", "put the published tables beside ours"),
     "faults": ("floatref_conformance.cli.faults.command:faults", "put faults into drives"),
 }

@@ -12,11 +12,11 @@ import click
 from floatref.cli.lazy import LazyGroup
 
 FAULT_OF_THE_SUITE = 3
-INTERRUPTED = 130
 MISSING = {
     "table": "no table",
     "faults": "no study",
     "simulate": "no recording",
+    "sample": "no sample",
     "selftest": "no counts",
     "certify": "no worksheet",
 }
@@ -40,6 +40,10 @@ class VerdictGroup(LazyGroup):
             drop_output()
             sys.exit(FAULT_OF_THE_SUITE)
 
+    def describe_interruption(self, ctx: click.Context | None) -> str:
+        """Return the line of a command that Ctrl-C has ended: without what it leaves its caller."""
+        return f"Interrupted: {_missing(ctx)}"
+
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
         """Parse the arguments, with `--help`; errors as those of `invoke`."""
         with _no_verdict(None):
@@ -57,9 +61,6 @@ def _no_verdict(ctx: click.Context | None) -> Iterator[None]:
         yield
     except (click.ClickException, click.exceptions.Exit):
         raise
-    except (KeyboardInterrupt, click.Abort):
-        click.echo(f"Interrupted: {_missing(ctx)}", err=True)
-        raise click.exceptions.Exit(INTERRUPTED) from None
     except BrokenPipeError:
         drop_output()
         raise NoVerdict(f"nobody reads the output any more, {_missing(ctx)}") from None

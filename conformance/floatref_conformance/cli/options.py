@@ -8,9 +8,10 @@ from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.judge.events import Renderer
 from floatref_conformance.render.cases import CaseFiles
-from floatref_conformance.render.html import HtmlReport
+from floatref_conformance.render.html import NAME, HtmlReport
 from floatref_conformance.render.junit import JUnitReport
 from floatref_conformance.render.report import JsonReport
+from floatref_conformance.render.text import needs_jinja
 
 
 def class_of(device: Device, asked: str | None) -> DeviceClass:
@@ -34,5 +35,7 @@ def writers_into(folder: Path | None) -> list[Renderer]:
     """Return what writes the reports into ``folder``, made if need be; empty without one."""
     if folder is None:
         return []
+    # Before a folder is made, or an earlier report removed.
+    needs_jinja(NAME)
     writers = (CaseFiles, JsonReport, JUnitReport, HtmlReport)
     return [writer.into(folder) for writer in writers]

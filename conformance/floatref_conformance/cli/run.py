@@ -13,6 +13,7 @@ from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.in_processes import refuse_processes
 from floatref_conformance.judge.runner import Plan
+from floatref_conformance.judge.search import check_installed
 from floatref_conformance.judge.waivers import check_used, read_waivers
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.report import JsonOutput
@@ -128,6 +129,8 @@ def run(
             report=report,
             edition=find_edition(edition),
         )
+        if plan.searching:
+            check_installed()
         refuse_processes(plan, jobs)
         writers = writers_into(report)
     if as_json:

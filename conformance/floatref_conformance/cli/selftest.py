@@ -8,6 +8,7 @@ from rich.progress import Progress
 
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.editions.edition import Edition, find_edition
+from floatref_conformance.judge.search import check_installed
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
 from floatref_conformance.selftest.counts import Counts, find_killers
@@ -71,6 +72,7 @@ def selftest(
 
     Exit code 0: all of it holds; 1: it does not; 2: wrong usage; 3: the suite itself is at fault.
     """
+    check_installed()
     wanted = Extent(seeds, false_alarms, limits, not ids if unique is None else unique, processes)
     counts = _count(ids, wanted, find_edition(edition))
     if as_json:

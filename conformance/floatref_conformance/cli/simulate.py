@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from floatref.errors import InputError
+from floatref.errors import InputError, TargetExists
 
 if TYPE_CHECKING:
     from floatref_conformance.proving_ground.scenario import Scenario
@@ -23,7 +23,10 @@ if TYPE_CHECKING:
     type=click.IntRange(1, 1000),
     help="Repeat passes of one road: OUT and the truth get a folder run_001, … for each.",
 )
-def simulate(run: str, out: Path, seed: int | None, truth: Path | None, runs: int | None) -> None:
+@click.option("--overwrite", is_flag=True, help="Replace an existing recording and truth.")
+def simulate(
+    run: str, out: Path, seed: int | None, truth: Path | None, runs: int | None, overwrite: bool
+) -> None:
     """Simulate RUN and write a recording directory.
 
     RUN is a published run (sg_10.7s_0.20g, …), ref_72 for the reference pass at 72 km/h, or a
@@ -33,7 +36,13 @@ def simulate(run: str, out: Path, seed: int | None, truth: Path | None, runs: in
     from floatref_conformance.proving_ground.scenario import repeat_passes
 
     scenario = _scenario(run, seed)
-    _check_targets(out, truth)
+    if overwrite and runs is not None:
+        raise InputError("--overwrite: not together with --runs, whose old folders would remain")
+    _check_targets(out, truth, overwrite)
+    if overwrite:
+        # Both are complete before the old ones go; nothing of them is taken away after an error.
+        _write(run, scenario, out, truth, [], overwrite)
+        return
     made: list[Path] = []
     try:
         if runs is None:
@@ -48,7 +57,14 @@ def simulate(run: str, out: Path, seed: int | None, truth: Path | None, runs: in
         raise
 
 
-def _write(run: str, scenario: "Scenario", out: Path, truth: Path | None, made: list[Path]) -> None:
+def _write(
+    run: str,
+    scenario: "Scenario",
+    out: Path,
+    truth: Path | None,
+    made: list[Path],
+    overwrite: bool = False,
+) -> None:
     """Simulate one pass; what was written is added to ``made``."""
     from floatref.files import write_profile, write_recording
     from floatref.files.sources import name_errors
@@ -61,10 +77,10 @@ def _write(run: str, scenario: "Scenario", out: Path, truth: Path | None, made: 
     for target in (out, truth):
         if target is not None:
             target.parent.mkdir(exist_ok=True)
-    write_recording(simulation.recording, out)
+    write_recording(simulation.recording, out, overwrite)
     made.append(out)
     if truth is not None:
-        write_profile(simulation.truth, truth)
+        write_profile(simulation.truth, truth, overwrite)
         made.append(truth)
     drive = simulation.motion
     click.echo(f"{out}: {drive.times_s[-1]:.1f} s, {drive.distance[-1]:.1f} m, tracks ", nl=False)
@@ -82,13 +98,13 @@ def _scenario(run: str, seed: int | None) -> "Scenario":
     return scenario if seed is None else replace(scenario, seed=seed)
 
 
-def _check_targets(out: Path, truth: Path | None) -> None:
+def _check_targets(out: Path, truth: Path | None, overwrite: bool) -> None:
     """Raise InputError before any work for targets that cannot be written."""
     for target in (out, truth):
         if target is None:
             continue
-        if target.exists() or target.is_symlink():
-            raise InputError(f"{target}: exists; choose another name")
+        if not overwrite and (target.exists() or target.is_symlink()):
+            raise TargetExists(f"{target}: exists; choose another name")
         if not target.resolve().parent.is_dir():
             raise InputError(f"{target}: its folder does not exist; make it first")
     if truth is not None and truth.resolve() == out.resolve():

@@ -1,7 +1,9 @@
 """Built-in devices: the pipelines of floatref, run in this process."""
 
+import sys
 import warnings
 from collections.abc import Mapping
+from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -63,8 +65,11 @@ class BuiltinDevice:
 def process_quietly(
     recording: Recording, pipeline: str, settings: Mapping[str, Any] | None = None
 ) -> Profile:
-    """Return the profile that ``pipeline`` makes of ``recording``, without its warnings."""
-    with warnings.catch_warnings():
+    """Return the profile that ``pipeline`` makes of ``recording``, without its warnings.
+
+    What a plug-in prints goes to standard error: standard output is the report's.
+    """
+    with warnings.catch_warnings(), redirect_stdout(sys.stderr):
         warnings.simplefilter("ignore", floatref.FloatrefWarning)
         return floatref.process(recording, pipeline, settings)
 

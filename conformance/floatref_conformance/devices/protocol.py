@@ -10,6 +10,8 @@ from floatref_conformance.devices.process import Child, readable, start
 from floatref_conformance.errors import DeviceError, DeviceRefused, DeviceSkipped
 
 VERSION = 1
+WHERE = "stdout is for answers alone, messages go to stderr"
+"""What to do about a line that is no answer."""
 START_S = 10.0
 """Time for `start`, in s."""
 STOP_S = 5.0
@@ -113,9 +115,10 @@ def parse_line(line: bytes) -> Mapping[str, Any]:
     except UnicodeDecodeError as error:
         raise DeviceError(f"the answer is not UTF-8: {readable(line)}") from error
     except (ValueError, RecursionError) as error:
-        raise DeviceError(f"the answer is not JSON: {readable(line) or 'an empty line'}") from error
+        noise = readable(line) or "an empty line"
+        raise DeviceError(f"the answer is not JSON: {noise} ({WHERE})") from error
     if not isinstance(found, Mapping):
-        raise DeviceError(f"the answer is not a JSON object: {readable(line)}")
+        raise DeviceError(f"the answer is not a JSON object: {readable(line)} ({WHERE})")
     return found
 
 

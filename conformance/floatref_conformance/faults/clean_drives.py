@@ -1,11 +1,9 @@
 """Healthy drives of the families: whatever the screening reports of them is a false alarm."""
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import islice
-from multiprocessing import get_context
 
 from floatref.errors import FloatrefError
 from floatref.values.profile import Profile
@@ -15,6 +13,7 @@ from floatref_conformance.faults.study import PIPELINES
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.table.families.conditions import CONDITIONS
 from floatref_conformance.table.families.family_settings import draw_drive
+from floatref_conformance.worker_pool import map_in_order
 
 LATENCY_MS = 0.5
 """Largest error of a latency in ms that is stated right: the least that is moved."""
@@ -67,23 +66,13 @@ def try_clean_drives(
     """Return the false alarms of ``count`` healthy drives; ``watch`` is called after each."""
     made = CleanDrives()
     names, scenarios = zip(*clean_scenarios(count, seed), strict=True)
-    for name, alarms in _try_all(names, scenarios, pipelines, jobs):
-        made.drives += 1
-        made.alarms += alarms
-        if watch is not None:
-            watch(name)
+    with map_in_order(partial(try_drive, pipelines=pipelines), jobs, names, scenarios) as results:
+        for name, alarms in zip(names, results, strict=True):
+            made.drives += 1
+            made.alarms += alarms
+            if watch is not None:
+                watch(name)
     return made
-
-
-def _try_all(
-    names: tuple[str, ...], scenarios: tuple[Scenario, ...], pipelines: tuple[str, ...], jobs: int
-) -> Iterator[tuple[str, list[Alarm]]]:
-    try_one = partial(try_drive, pipelines=pipelines)
-    if jobs == 1:
-        yield from zip(names, map(try_one, names, scenarios), strict=True)
-        return
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as workers:
-        yield from zip(names, workers.map(try_one, names, scenarios), strict=True)
 
 
 def try_drive(name: str, scenario: Scenario, pipelines: tuple[str, ...]) -> list[Alarm]:

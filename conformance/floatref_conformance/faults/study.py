@@ -1,10 +1,8 @@
 """The study: every fault in every drive, and what every pipeline makes of it."""
 
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
-from multiprocessing import get_context
 
 from floatref.errors import FloatrefError, InputError
 from floatref.values.display.similar_names import suggest
@@ -13,6 +11,7 @@ from floatref_conformance.devices.builtin import make, process_with_warnings
 from floatref_conformance.faults.fault_list import FAULTS, find_fault
 from floatref_conformance.faults.outcomes import Outcome, Truth, judge
 from floatref_conformance.proving_ground.scenario import Scenario
+from floatref_conformance.worker_pool import map_in_order
 
 RATE_HZ = 8000.0
 """Sampling rate of the accelerometers: half of 16 kHz takes half the time, as in the families."""
@@ -98,24 +97,15 @@ def make_study(settings: StudySettings, watch: Callable[[str], None] | None = No
     """Return the study of ``settings``; ``watch`` is called after every fault in a drive."""
     made = Study(settings)
     work = [(fault, drive) for drive in settings.drives for fault in (HEALTHY, *settings.faults)]
-    for (fault, drive), trials in zip(work, _try_all(settings, work), strict=True):
-        (made.trials if fault else made.healthy).extend(trials)
-        if watch is not None:
-            watch(f"{drive}: {fault or 'healthy'}")
-    return made
-
-
-def _try_all(
-    settings: StudySettings, work: Sequence[tuple[str, str]]
-) -> Iterator[tuple[Trial, ...]]:
     try_one = partial(
         try_fault, pipelines=settings.pipelines, seed=settings.seed, nominal=settings.nominal
     )
-    if settings.jobs == 1:
-        yield from map(try_one, *zip(*work, strict=True))
-        return
-    with ProcessPoolExecutor(settings.jobs, mp_context=get_context("spawn")) as workers:
-        yield from workers.map(try_one, *zip(*work, strict=True))
+    with map_in_order(try_one, settings.jobs, *zip(*work, strict=True)) as results:
+        for (fault, drive), trials in zip(work, results, strict=True):
+            (made.trials if fault else made.healthy).extend(trials)
+            if watch is not None:
+                watch(f"{drive}: {fault or 'healthy'}")
+    return made
 
 
 def try_fault(

@@ -4,16 +4,11 @@ Each check is judged in a process of its own, by a copy of the device. So the de
 same answer in whatever order it is asked, and may run several times at once.
 """
 
-import signal
-import tempfile
-from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import active_children, get_context
 from multiprocessing.reduction import ForkingPickler
-from tempfile import TemporaryDirectory
 from types import MappingProxyType
 from typing import Any
 
@@ -27,6 +22,7 @@ from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.events import CaseReplayed, CheckFinished, CheckStarted, Event
 from floatref_conformance.judge.runner import Emit, Judged, Plan, run
 from floatref_conformance.plugins import load_registry
+from floatref_conformance.worker_pool import worker_pool
 
 OneCheck = tuple[CheckResult, tuple[Mapping[str, Any], ...]]
 """The result of a check, and of its stored cases."""
@@ -128,7 +124,7 @@ def _judge_all(processes: int, plan: Plan, description: Description, emit: Emit)
     """Return the results of all checks, and of all stored cases."""
     results: list[CheckResult] = []
     replayed: list[Mapping[str, Any]] = []
-    with _worker_pool(processes) as pool:
+    with worker_pool(processes) as pool:
         coming = [
             (check, pool.submit(judge_alone, Part.of(plan, check.id))) for check in plan.checks
         ]
@@ -162,28 +158,3 @@ def judge_alone(part: Part) -> OneCheck:
 
 def _ignore(event: Event) -> None:
     """Ignore ``event``."""
-
-
-@contextmanager
-def _worker_pool(processes: int) -> Iterator[ProcessPoolExecutor]:
-    """Yield a pool whose processes, and their temporary files, end with it, after an error at once.
-
-    A fork would share the threads of this process.
-    """
-    others = set(active_children())
-    with TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
-        pool = ProcessPoolExecutor(processes, get_context("spawn"), _prepare_worker, (scratch,))
-        try:
-            yield pool
-        except BaseException:
-            for worker in set(active_children()) - others:
-                worker.terminate()
-            raise
-        finally:
-            pool.shutdown(cancel_futures=True)
-
-
-def _prepare_worker(scratch: str) -> None:
-    """Write temporary files into ``scratch``; the first process alone decides on Ctrl-C."""
-    tempfile.tempdir = scratch
-    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -11,15 +11,21 @@ import zlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
+from importlib.util import find_spec
 from unittest import mock
 
-from floatref.errors import InputError
+from floatref.errors import InputError, missing_extra
 from floatref_conformance.checks.case import FROM_DEVICE, Case
 from floatref_conformance.checks.interface import Check
-from floatref_conformance.errors import SuiteError
 
 FARTHEST = 1e3
 """Largest ratio of value to limit that the search distinguishes; faults count as this ratio."""
+
+
+def check_installed() -> None:
+    """Raise InputError now if the package that searches is missing."""
+    if find_spec("hypothesis") is None:
+        raise missing_extra("the search for failing cases needs hypothesis", "conformance")
 
 
 def search(check: Check, seed: int, count: int, judge: Callable[[Case], float]) -> None:
@@ -29,10 +35,7 @@ def search(check: Check, seed: int, count: int, judge: Callable[[Case], float]) 
     """
     if count < 1:
         return
-    try:
-        import hypothesis
-    except ImportError as error:
-        raise SuiteError("the search needs: pip install 'floatref[conformance]'") from error
+    import hypothesis
     from hypothesis import HealthCheck, Phase, Verbosity, given, settings, target
 
     tried = 0

@@ -4,7 +4,7 @@ import unicodedata
 from importlib.util import find_spec
 from typing import Any
 
-from floatref.errors import InputError
+from floatref.errors import missing_extra
 
 HIDDEN = ("Cc", "Cs", "Co", "Cn")
 """Categories of characters without a picture: controls, surrogates, unassigned."""
@@ -40,7 +40,7 @@ def _escape(character: str) -> str:
 def needs_jinja(page: str) -> None:
     """Raise InputError where the package that fills in ``page`` is not installed."""
     if find_spec("jinja2") is None:
-        raise InputError(f"{page} needs Jinja; pip install 'floatref[conformance]'")
+        raise missing_extra(f"{page} needs Jinja", "conformance")
 
 
 def fill_template(template: str, package: str = __package__, **values: Any) -> str:

@@ -1,8 +1,7 @@
 """Run devices on checks, in several processes, to find out which devices fail."""
 
-import multiprocessing
-from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Generator, Sequence
+from concurrent.futures import as_completed
 from dataclasses import dataclass
 from functools import cache
 
@@ -20,6 +19,7 @@ from floatref_conformance.judge.replaying import judge_case
 from floatref_conformance.judge.search import search
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
+from floatref_conformance.worker_pool import worker_pool
 
 
 @dataclass(frozen=True)
@@ -44,19 +44,14 @@ class TryResult:
     fails: str
 
 
-def try_all(tries: Sequence[Try], processes: int) -> Iterator[TryResult]:
+def try_all(tries: Sequence[Try], processes: int) -> Generator[TryResult, None, None]:
     """Yield the results of ``tries`` as they finish; an error of the suite is raised."""
     if processes < 2:
         yield from map(attempt, tries)
         return
-    # A fork would share the threads and children of this process.
-    spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=spawn) as pool:
-        try:
-            for done in as_completed([pool.submit(attempt, one) for one in tries]):
-                yield done.result()
-        finally:
-            pool.shutdown(cancel_futures=True)
+    with worker_pool(processes) as pool:
+        for done in as_completed([pool.submit(attempt, one) for one in tries]):
+            yield done.result()
 
 
 def attempt(wanted: Try) -> TryResult:

@@ -1,6 +1,7 @@
 """The steps of the self-test, with progress, and the limits to grade."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from typing import Protocol, TypeVar
 
@@ -120,4 +121,5 @@ class Work:
         return list_other_tries(self.killers, ids, range(self.extent.seeds), self.edition)
 
     def _try(self, title: str, tries: tuple[Try, ...]) -> tuple[TryResult, ...]:
-        return tuple(self.track(try_all(tries, self.extent.processes), len(tries), title))
+        with closing(try_all(tries, self.extent.processes)) as results:
+            return tuple(self.track(results, len(tries), title))

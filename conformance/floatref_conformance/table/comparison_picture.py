@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floatref.errors import InputError
+from floatref.errors import InputError, missing_extra
 from floatref.files.atomic import check_target, replace_file
 from floatref_conformance.table.cells import Cell, ComparisonTable
 from floatref_conformance.table.passes import FITTED
@@ -124,7 +124,7 @@ def new_figure(width: float, height: float) -> Figure:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError as error:
-        raise InputError("drawing needs matplotlib; run: pip install 'floatref[plot]'") from error
+        raise missing_extra("drawing needs matplotlib", "plot") from error
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure

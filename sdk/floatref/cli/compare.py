@@ -20,6 +20,7 @@ from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
 from floatref.measures import WAVEBANDS, IriSettings, agreement, iri, on_common_grid
+from floatref.measures.locating.shift import Shift, find_shift, move
 from floatref.measures.valid_iri import iri_of_common_points
 from floatref.values.profile import Profile
 
@@ -36,36 +37,51 @@ OF_VALID = ("iri_of_valid_m_per_km", "iri_reference_of_valid_m_per_km")
     default=1.0,
     show_default=True,
     metavar="METRES",
-    help="Largest offset searched.",
+    help="Largest offset searched, around the place of PROFILE.",
 )
+@click.option("--no-placement", is_flag=True, help="Compare PROFILE as it lies.")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw both.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def compare(
-    reference: Path, profile: Path, max_offset_m: float, plot: Path | None, as_json: bool
+    reference: Path,
+    profile: Path,
+    max_offset_m: float,
+    no_placement: bool,
+    plot: Path | None,
+    as_json: bool,
 ) -> None:
     """Print how well PROFILE agrees with REFERENCE, by cross correlation and by IRI.
 
-    Wheel paths are matched by name; PROFILE may have others. It is interpolated linearly at the
-    points of REFERENCE where both overlap. An offset above zero means that PROFILE lies farther
-    along. Both IRIs of valid points are over the stretches in which both profiles are valid.
+    Wheel paths are matched by name; PROFILE may have others. If it lies more than 1 m from its
+    place on the road of REFERENCE, it is moved there; where that place is not sure, a line says so.
+    It is interpolated linearly at the points of REFERENCE where both overlap. An offset or a
+    placement above zero means that PROFILE lies farther along. Both IRIs of valid points are over
+    the stretches in which both profiles are valid.
     """
     expected, found = profile_of(reference), profile_of(profile)
     with name_errors(f"{reference} and {profile}"):
         _check_tracks(expected, found)
-        expected, found = on_common_grid(expected, found)
-        report = compare_report(expected, found, max_offset_m)
+        shift = None if no_placement else find_shift(expected, found)
+        expected, found = on_common_grid(expected, move(found, shift) if shift else found)
+        report = compare_report(expected, found, max_offset_m, shift)
     if plot is not None:
         from floatref.plots import draw_comparison
 
-        draw_comparison(expected, found, plot, max_offset_m)
+        draw_comparison(expected, found, plot, max_offset_m, report["placement_m"])
     if as_json:
         print_json(report)
     else:
         _print_tables(report)
 
 
-def compare_report(reference: Profile, profile: Profile, max_offset_m: float) -> dict[str, Any]:
-    """Return the JSON document of `floatref compare --json` for two profiles on the same points."""
+def compare_report(
+    reference: Profile, profile: Profile, max_offset_m: float, shift: Shift | None = None
+) -> dict[str, Any]:
+    """Return the JSON document of `floatref compare --json` for two profiles on the same points.
+
+    ``shift`` is by how much ``profile`` was moved; None if it is compared as it lies.
+    """
+    placement_m = shift.placement_m if shift and shift.is_sure else None
     interval = reference.interval_m
     settings = IriSettings().as_dict(interval) | {
         "max_offset_m": max_offset_m,
@@ -78,7 +94,13 @@ def compare_report(reference: Profile, profile: Profile, max_offset_m: float) ->
     ]
     names = {track.name for track in reference.tracks}
     extra = [track.name for track in profile.tracks if track.name not in names]
-    return {"settings": settings, "tracks": tracks, "not_compared": extra}
+    return {
+        "settings": settings,
+        "placement_m": placement_m,
+        "placement_note": shift.note if shift else "",
+        "tracks": tracks,
+        "not_compared": extra,
+    }
 
 
 def _check_tracks(reference: Profile, profile: Profile) -> None:
@@ -148,9 +170,22 @@ def _print_tables(report: dict[str, Any]) -> None:
     print_table("Cross correlation of slope by waveband", ("track", *WAVEBANDS), bands)
     some = any(track["counted_share"] < 1.0 for track in tracks)
     explain_mark(some, "all figures but those of valid points have the others too")
+    _print_placement(report)
     if report["not_compared"]:
         click.echo(f"Not in the reference: {', '.join(report['not_compared'])}\n")
     print_settings(report["settings"])
+
+
+def _print_placement(report: Mapping[str, Any]) -> None:
+    """Print by how much the profile was moved, or why its place is not sure; else nothing."""
+    placement_m, note = report["placement_m"], report["placement_note"]
+    if placement_m:
+        way = "farther along" if placement_m > 0 else "earlier"
+        click.echo(f"Placement: PROFILE lies {abs(placement_m):.2f} m {way}, and is moved there\n")
+    if note and placement_m is None:
+        click.echo(f"Placement: not sure, PROFILE is compared as it lies: {note}\n")
+    elif note:
+        click.echo(f"PROFILE: {note}\n")
 
 
 def _print_valid(tracks: Sequence[Mapping[str, Any]]) -> None:

@@ -5,14 +5,18 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
+from io import TextIOWrapper
 from traceback import walk_tb
 from typing import Any
 
 import click
 
 from floatref.cli.choices import hint_at_choices, hint_behind
-from floatref.errors import FloatrefError
+from floatref.errors import FloatrefError, TargetExists
 
+INTERRUPTED = 130
+"""Exit code of every command that was interrupted, as shells have it: 128 and SIGINT."""
+OVERWRITE = "--overwrite"
 STREAMS = ("stdin", "stdout", "stderr")
 """Names in `sys`, in the order of the file descriptors 0, 1 and 2."""
 
@@ -30,6 +34,16 @@ def open_outputs() -> None:
             mode = "w" if number else "r"
             # It stays open as long as the process.
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115
+
+
+def replace_unknown_letters() -> None:
+    """Have letters that an output's encoding lacks written as `?`; those of JSON are ASCII.
+
+    A pipe of Windows has the code page of the system, in which there is no σ, and often no dash.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")
 
 
 class UnusableInput(click.ClickException):
@@ -82,13 +96,39 @@ class LazyGroup(click.Group):
     def make_context(self, *args: Any, **kwargs: Any) -> click.Context:
         """Parse the arguments, with `--help`; errors as those of `invoke`."""
         open_outputs()
-        with _one_line():
+        replace_unknown_letters()
+        with self._interruptible(None), _one_line():
             return super().make_context(*args, **kwargs)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the sub-command; an error the user can act on becomes one line and exit code 2."""
-        with _one_line():
+        with self._interruptible(ctx), _one_line(), self._name_overwrite(ctx):
             return super().invoke(ctx)
+
+    def describe_interruption(self, ctx: click.Context | None) -> str:
+        """Return the line of a command that Ctrl-C has ended."""
+        return "Interrupted"
+
+    @contextmanager
+    def _interruptible(self, ctx: click.Context | None) -> Iterator[None]:
+        """Make one line and exit code 130 of Ctrl-C, and of SIGTERM where a command takes it."""
+        try:
+            yield
+        except (KeyboardInterrupt, click.Abort):
+            click.echo(self.describe_interruption(ctx), err=True)
+            raise click.exceptions.Exit(INTERRUPTED) from None
+
+    @contextmanager
+    def _name_overwrite(self, ctx: click.Context) -> Iterator[None]:
+        """Name the option of a command that can replace the target which it refuses."""
+        try:
+            yield
+        except TargetExists as error:
+            command = self.get_command(ctx, ctx.invoked_subcommand or "")
+            options = [name for param in command.params for name in param.opts] if command else []
+            if OVERWRITE not in options:
+                raise
+            raise TargetExists(f"{error}, or replace it with {OVERWRITE}") from error
 
 
 @contextmanager

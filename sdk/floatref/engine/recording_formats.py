@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-from floatref.engine.formats import find_readers, is_native, write_file
+from floatref.engine.formats import write_file
 from floatref.engine.plugins import plugins
+from floatref.engine.readers import find_readers, is_native
 from floatref.errors import InputError
 from floatref.files import write_recording
 from floatref.files.sources import name_errors

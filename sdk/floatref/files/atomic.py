@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from floatref.errors import InputError
+from floatref.errors import InputError, TargetExists
 
 SAMPLE_SUFFIXES = (".f64", ".u8")
 """Suffixes of a directory's sample files, which are deleted when it is replaced."""
@@ -77,7 +77,7 @@ def _target(path: Path, overwrite: bool) -> Path:
 
 def _refuse_existing(target: Path, overwrite: bool) -> None:
     if not overwrite and os.path.lexists(target):
-        raise InputError(f"{target}: exists; choose another name, or overwrite it on purpose")
+        raise TargetExists(f"{target}: exists; choose another name")
 
 
 def _beside(target: Path) -> Path:
@@ -111,7 +111,8 @@ def _explain_errors(path: Path, target: Path) -> Iterator[None]:
 
 def _settle(path: Path) -> None:
     """Flush the content to the disk before a name points to it."""
-    handle = os.open(path, os.O_RDONLY)
+    # Windows flushes only what is open for writing.
+    handle = os.open(path, os.O_RDWR)
     try:
         os.fsync(handle)
     finally:

@@ -1,4 +1,4 @@
-"""Drawings of profiles, innovations, networks and noise; needs the extra ``floatref[plot]``."""
+"""Drawings of profiles, innovations, networks and noise; needs the extra ``plot``."""
 
 from floatref.plots.allan_deviation import draw_allan
 from floatref.plots.comparison import draw_comparison

@@ -32,16 +32,21 @@ HEIGHTS = (2.6, 1.6, 2.2)
 
 
 def draw_comparison(
-    reference: Profile, profile: Profile, path: Path, max_offset_m: float = 1.0
+    reference: Profile,
+    profile: Profile,
+    path: Path,
+    max_offset_m: float = 1.0,
+    placement_m: float | None = None,
 ) -> None:
     """Write a drawing of ``profile`` against ``reference`` to ``path`` (.png, .pdf or .svg).
 
     One column for each wheel path of the reference: both elevations, high-pass filtered alike with
     −3 dB at 91.44 m, their difference, and both short-interval roughness profiles in m/km. The
-    title holds the agreement (2.16) within ±``max_offset_m``. Points that are not valid in both are
-    shaded and dotted, and the IRIs are over the others, with their share. Raises InputError if a
-    wheel path is missing in ``profile``, the two do not overlap, matplotlib is missing, or ``path``
-    cannot be written.
+    title holds the agreement (2.16) within ±``max_offset_m``. Above them stands ``placement_m``, by
+    which ``profile`` lay farther along before it was moved, unless that is None or 0. Points that
+    are not valid in both are shaded and dotted, and the IRIs are over the others, with their share.
+    Raises InputError if a wheel path is missing in ``profile``, the two do not overlap, matplotlib
+    is missing, or ``path`` cannot be written.
     """
     path = Path(path)
     check_suffix(path)
@@ -51,6 +56,10 @@ def draw_comparison(
         found = profile.track(expected.name)
         _draw_track(list(column), expected, found, reference)
         title(column[0], _title(expected, found, reference.interval_m, max_offset_m))
+    if placement_m:
+        way = "farther along" if placement_m > 0 else "earlier"
+        text = f"The profile lay {abs(placement_m):.2f} m {way}, and is moved to its place"
+        figure.suptitle(text, x=0.01, ha="left", fontsize="medium")
     axes[0, 0].set_xlim(reference.distance_m[0], reference.distance_m[-1])
     save(figure, path)
 

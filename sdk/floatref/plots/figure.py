@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from floatref.errors import InputError
+from floatref.errors import InputError, missing_extra
 from floatref.files.atomic import replace_file
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 
@@ -51,7 +51,7 @@ def new_figure(
 
         from floatref.plots.shown_figure import ShownFigure
     except ImportError as error:
-        raise InputError("drawing needs matplotlib; run: pip install 'floatref[plot]'") from error
+        raise missing_extra("drawing needs matplotlib", "plot") from error
     usual = [11.0] if columns == 1 else [8.0] * columns
     width = sum(widths or usual)
     figure = ShownFigure(figsize=(width, sum(heights) + 0.8), layout="constrained")

@@ -191,7 +191,7 @@ class Profile:
 
         Lines are solid where points are valid and dotted where they are not; stretches in which
         any wheel path is invalid are shaded. Raises InputError for an elevation beyond 1000 km,
-        and if matplotlib, of the extra ``floatref[plot]``, is missing.
+        and if matplotlib, of the extra ``plot``, is missing.
         """
         return cast("Figure", view("profile_figure")(self))
 
@@ -200,7 +200,7 @@ class Profile:
 
         Columns are `left_elevation_m`, `left_valid` and, if known, `left_sigma_m`, and so on for
         every wheel path; `attrs` holds their `units`, and what made the profile. Raises InputError
-        if pandas, of the extra ``floatref[adapters]``, is missing.
+        if pandas, of the extra ``adapters``, is missing.
         """
         return cast("DataFrame", view("profile_to_pandas")(self))
 
@@ -208,6 +208,6 @@ class Profile:
         """Return a data set with dimensions `track` and `distance`, units as attributes.
 
         Variables are `elevation` and `sigma` in m and `valid`. Raises InputError if xarray, of the
-        extra ``floatref[adapters]``, is missing.
+        extra ``adapters``, is missing.
         """
         return cast("Dataset", view("profile_to_xarray")(self))

@@ -176,7 +176,7 @@ class Recording:
         """Return a figure with a panel for each quantity over the time in s.
 
         Times at which a sample is missing are shaded. Raises InputError if matplotlib, of the
-        extra ``floatref[plot]``, is missing.
+        extra ``plot``, is missing.
         """
         return cast("Figure", view("recording_figure")(self))
 
@@ -184,7 +184,7 @@ class Recording:
         """Return read-only frames with index `time_s` in s, one for every clock.
 
         Columns are `<channel>` or `<track>.<channel>`; `attrs` holds their `units`. Nothing is
-        resampled. Raises InputError if pandas, of the extra ``floatref[adapters]``, is missing.
+        resampled. Raises InputError if pandas, of the extra ``adapters``, is missing.
         """
         return cast("list[DataFrame]", view("recording_to_pandas")(self))
 
@@ -192,7 +192,7 @@ class Recording:
         """Return a data set with a dimension `time_1`, `time_2` … for every clock.
 
         Variables are `<channel>` or `<track>.<channel>`, with their `units`. Raises InputError if
-        xarray, of the extra ``floatref[adapters]``, is missing.
+        xarray, of the extra ``adapters``, is missing.
         """
         return cast("Dataset", view("recording_to_xarray")(self))
 

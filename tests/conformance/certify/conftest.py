@@ -1,7 +1,7 @@
 """A road of Sayers' spectrum and ten repeated runs over it, as profiles, without a simulation."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from floatref.files import write_profile
-from floatref.measures import high_pass
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.judging import sections
 from floatref_conformance.certify.judging.contents import SectionSheet
@@ -154,80 +153,3 @@ def _noise(draw: np.random.Generator, x: np.ndarray, interval_m: float) -> np.nd
     white = draw.normal(size=x.size + round(0.2 / interval_m))
     width = round(0.2 / interval_m) + 1
     return np.convolve(white, np.ones(width) / np.sqrt(width), mode="valid")
-
-
-@dataclass(frozen=True)
-class WhiteRoad:
-    """Elevation of two wheel paths every `FINE_M`, the section `BEGINS_M` from its beginning."""
-
-    left: np.ndarray
-    right: np.ndarray
-
-    def reference(self, interval_m=0.025, length_m=SECTION_M):
-        """The section as surveyed: unfiltered, with its hills."""
-        at = np.arange(0.0, length_m, interval_m)
-        hills = 100.0 + 3.0 * np.sin(at / 150.0)
-        return self._profile(BEGINS_M + at, interval_m, 0.0, lambda z: z + hills)
-
-    def run(
-        self,
-        start_m=0.0,
-        length_m=SECTION_M + 1.0,
-        interval_m=0.04,
-        scale=1.0,
-        gain=1.0,
-        noise=0.0,
-        seed=0,
-    ):
-        """A run from ``start_m`` of the section on, starting at 0: high-passed, with errors.
-
-        ``noise`` is that of slope, in its share of the road's.
-        """
-        rng = np.random.default_rng(seed)
-        at = np.arange(0.0, length_m * scale, interval_m) / scale
-
-        def measured(z):
-            slopes = rng.standard_normal(z.size) * noise * 1e-3 / np.sqrt(interval_m)
-            return high_pass(gain * (z + np.cumsum(slopes) * interval_m), interval_m)
-
-        return self._profile(BEGINS_M + start_m + at, interval_m, 0.0, measured)
-
-    def _profile(self, at, interval_m, start_m, measured):
-        fine = FINE_M * np.arange(self.left.size)
-        tracks = tuple(
-            ProfileTrack.of(name, measured(np.interp(at, fine, z)))
-            for name, z in (("left", self.left), ("right", self.right))
-        )
-        return Profile(interval_m, tracks, start_m)
-
-
-def road_of(seed, length_m=700.0):
-    """Return a road of white slope, 1e-3 per root of wave number, but for waves below 0.5 m."""
-    rng = np.random.default_rng(seed)
-    count = int(length_m / FINE_M)
-    wave_number = np.fft.rfftfreq(count, FINE_M)
-    smoothing = 1.0 / (1.0 + np.square(0.3 * wave_number))
-    slopes = rng.standard_normal((2, count)) * 1e-3 / np.sqrt(FINE_M)
-    slopes = np.fft.irfft(np.fft.rfft(slopes) * smoothing, count)
-    return WhiteRoad(*(np.cumsum(slopes, axis=1) * FINE_M))
-
-
-def with_tracks(profile, change):
-    """Return ``profile`` with the name and elevation of every track as ``change`` gives them."""
-    tracks = [change(t.name, t.elevation) for t in profile.tracks]
-    return replace(profile, tracks=tuple(ProfileTrack.of(*t) for t in tracks))
-
-
-@pytest.fixture(scope="package")
-def road():
-    return road_of(7)
-
-
-@pytest.fixture(scope="package")
-def roads():
-    return road_of
-
-
-@pytest.fixture(scope="package")
-def changed():
-    return with_tracks

@@ -56,6 +56,7 @@ def test_a_reference_that_cannot_be_read_ends_it(written: Path, tmp_path: Path) 
         certified(Plan((replace(good, reference=tmp_path / "bad"),)))
 
 
+@pytest.mark.posix
 def test_the_reference_is_no_run(written: Path, tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to(written / "reference")
     with pytest.raises(InputError, match="link: is the reference itself"):

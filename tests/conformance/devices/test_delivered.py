@@ -16,6 +16,8 @@ from floatref_conformance.devices.interface import Description
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 from floatref_conformance.judge.exercise import close, exercise
 
+pytestmark = pytest.mark.posix
+
 NOMINAL = Description("in test", "1", "temporal", ())
 
 

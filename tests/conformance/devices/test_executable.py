@@ -41,6 +41,7 @@ def test_a_sound_program_is_started_once_runs_and_ends(device, recording, tmp_pa
     assert starts(tmp_path) == 1
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("fault", "timeout_s", "error", "words"),
@@ -109,6 +110,7 @@ def test_a_start_that_hangs_is_a_hang_and_a_stop_that_hangs_is_told(device):
     assert close(one).startswith("stop: still running after 0.3 s")
 
 
+@pytest.mark.posix
 def test_an_interrupt_leaves_no_process_behind(device, recorded, tmp_path):
     one = device("start()\nask()\nescape(hang)\nos.kill(os.getppid(), signal.SIGINT)\nhang()")
     describe(one)
@@ -150,6 +152,7 @@ def test_a_command_line_is_split_as_a_posix_shell_would_and_no_shell_sees_it(tmp
     assert executable.make(line).argv[1:] == ("-c", "pass", "a b", "$HOME", "; id", "c d")
 
 
+@pytest.mark.posix
 def test_a_program_is_found_on_the_path_or_from_the_folder(tmp_path, monkeypatch):
     program = tmp_path / "bin" / "firmware"
     program.parent.mkdir()
@@ -163,6 +166,7 @@ def test_a_program_is_found_on_the_path_or_from_the_folder(tmp_path, monkeypatch
     assert found.folder == tmp_path
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize(
     ("line", "words"),
     [
@@ -186,6 +190,7 @@ def test_a_command_that_cannot_be_found_is_named(tmp_path, monkeypatch, line, wo
         executable.make(line)
 
 
+@pytest.mark.posix
 def test_what_the_system_cannot_start_is_a_fault_of_start(tmp_path):
     program = tmp_path / "broken"
     program.write_bytes(b"\0\0\0\0")
@@ -205,6 +210,7 @@ def test_a_judged_program_that_crashes_fails_and_is_named(written, tmp_path):
     assert "start: exited with status 5 before it answered ; stderr: no lic" in judged["reason"]
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
 def test_an_interrupted_judge_gives_no_verdict_and_leaves_no_process(written, tmp_path, name):

@@ -97,6 +97,7 @@ def test_what_cannot_be_started_is_a_fault_and_leaves_nothing(argv, why, tmp_pat
     assert not is_adopting()
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "fate"),
@@ -184,6 +185,7 @@ ESCAPES = {
 }
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 @pytest.mark.parametrize("way", ESCAPES)
 @pytest.mark.parametrize("leaves", ["hang()", "os._exit(0)"])
@@ -205,6 +207,7 @@ print(os.read(out, 100).decode().strip(), flush=True)
     assert not is_adopting()
 
 
+@pytest.mark.posix
 def test_processes_of_others_are_left_alone(child):
     wait = [sys.executable, "-c", "import time; time.sleep(3600)"]
     before = subprocess.Popen(wait, start_new_session=True)

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from floatref_conformance.devices.protocol import Session, parse_line
 from floatref_conformance.errors import DeviceError, DeviceHung, DeviceSkipped
 
+pytestmark = pytest.mark.posix
+
 LONG_S = 600.0
 SHORT_S = 0.3
 

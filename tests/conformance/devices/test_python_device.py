@@ -60,6 +60,7 @@ def test_an_object_is_run_in_another_process_and_may_print(vendor, recording):
     assert "vendor_package" not in sys.modules
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "words"),

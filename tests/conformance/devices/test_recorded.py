@@ -112,6 +112,7 @@ def test_a_broken_recording_beside_the_others_is_no_ones(folder, recording):
     exercise(device, describe(device), raised(recording, 2))
 
 
+@pytest.mark.posix
 def test_a_link_in_place_of_an_elevation_is_a_fault(folder, recording):
     elevation = folder / "case1" / "left.f64"
     elevation.rename(folder / "left.f64")

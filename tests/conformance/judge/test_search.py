@@ -5,12 +5,13 @@ from types import ModuleType
 
 import pytest
 
+from floatref.errors import InputError
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.classes import Effort
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.events import CaseFinished, SearchStarted
-from floatref_conformance.judge.search import search
+from floatref_conformance.judge.search import check_installed, search
 from floatref_conformance.proving_ground.scenario import Scenario
 
 
@@ -101,10 +102,10 @@ def test_what_the_judge_raises_is_raised_at_once(toy_check, error):
     assert len(asked) == 3
 
 
-def test_without_hypothesis_there_is_a_line_that_says_how_to_get_it(toy_check, monkeypatch):
+def test_without_hypothesis_there_is_a_line_that_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "hypothesis", None)
-    with pytest.raises(SuiteError, match=r"pip install 'floatref\[conformance\]'"):
-        search(toy_check(), 0, 1, lambda case: 0.0)
+    with pytest.raises(InputError, match=r"pip install -e \"\.\[conformance\]\""):
+        check_installed()
 
 
 @pytest.mark.slow

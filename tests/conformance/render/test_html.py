@@ -190,5 +190,5 @@ def test_the_report_explains_the_checks_of_its_run_and_replaces_an_older_one(
 
 def test_without_the_template_engine_the_user_is_told_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setattr(text, "find_spec", lambda name: None)
-    with pytest.raises(InputError, match=r"pip install 'floatref\[conformance\]'"):
+    with pytest.raises(InputError, match=r"pip install -e \"\.\[conformance\]\""):
         HtmlReport.into(tmp_path)

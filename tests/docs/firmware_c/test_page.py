@@ -38,6 +38,7 @@ def test_the_readme_lists_every_source_file_once():
     assert sorted(files) == sorted({file.name for file in SOURCE.glob("*.c")} - unlisted)
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 def test_the_commands_of_the_readme_work_from_the_top_of_the_tree(tmp_path):
     readme = (SOURCE / "README.md").read_text(encoding="utf-8")

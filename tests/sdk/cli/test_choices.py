@@ -41,10 +41,12 @@ def test_a_mistyped_choice_is_refused_with_the_one_that_was_meant(group: str, na
         assert isinstance(option.type, OneOf)
         meant = next(str(each) for each in option.type.choices if len(str(each)) > 1)
         typed = f"{meant}x"
-        line = refused(GROUPS[group], name, option.opts[0], typed)
+        is_argument = isinstance(option, click.Argument)
+        words = [typed] if is_argument else [option.opts[0], typed]
+        line = refused(GROUPS[group], name, *words)
         assert f"'{typed}' is not one of" in line
         assert "Did you mean" in line
-        assert option.opts[0] in line
+        assert (option.human_readable_name if is_argument else option.opts[0]) in line
 
 
 def test_a_command_like_no_other_has_no_hint() -> None:

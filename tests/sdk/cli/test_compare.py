@@ -85,8 +85,45 @@ def test_missing_track_is_exit_2(tmp_path: Path, refused) -> None:
 
 def test_profiles_apart_are_exit_2(tmp_path: Path, refused) -> None:
     here = written(tmp_path / "r", main=road(1))
-    there = written(tmp_path / "p", start=5000.0, main=road(1))
+    there = written(tmp_path / "p", start=5000.0, main=road(2))
     assert "do not overlap" in refused("compare", here, there)
+    same = written(tmp_path / "s", start=5000.0, main=road(1))
+    assert "do not overlap" in refused("compare", here, same, "--no-placement")
+
+
+@pytest.mark.parametrize("start", [65.0, -65.0, 5000.0])
+def test_a_run_that_lies_elsewhere_is_placed(tmp_path: Path, start: float, reported, ran) -> None:
+    reference = written(tmp_path / "r", main=road(1))
+    moved = written(tmp_path / "p", start=start, main=road(1))
+    found = reported("compare", reference, moved)
+    assert found["placement_m"] == pytest.approx(start, abs=INTERVAL)
+    (track,) = found["tracks"]
+    assert track["cross_correlation"] == pytest.approx(1.0, abs=1e-3)
+    assert abs(track["offset_m"]) <= INTERVAL
+    assert (
+        f"PROFILE lies {abs(found['placement_m']):.2f} m "
+        in ran("compare", reference, moved).stdout
+    )
+
+
+def test_without_placement_a_run_is_compared_as_it_lies(tmp_path: Path, reported, ran) -> None:
+    reference = written(tmp_path / "r", main=road(1))
+    moved = written(tmp_path / "p", start=65.0, main=road(1))
+    found = reported("compare", reference, moved, "--no-placement")
+    assert found["placement_m"] is None
+    assert found["settings"]["start_m"] == pytest.approx(65.0)
+    assert found["tracks"][0]["cross_correlation"] < 0.5
+    assert "PROFILE lies" not in ran("compare", reference, moved, "--no-placement").stdout
+
+
+def test_a_place_that_is_not_sure_is_reported(tmp_path: Path, reported, ran) -> None:
+    reference = written(tmp_path / "r", main=road(1))
+    other = written(tmp_path / "p", main=road(2))
+    found = reported("compare", reference, other)
+    assert found["placement_m"] is None
+    assert found["placement_note"] in ran("compare", reference, other).stdout
+    as_it_lies = reported("compare", reference, other, "--no-placement")
+    assert found["tracks"] == as_it_lies["tracks"]
 
 
 @pytest.mark.parametrize("offset", ["-1", "nan", "inf", "150", "1e308"])

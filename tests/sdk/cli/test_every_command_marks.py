@@ -127,6 +127,7 @@ CHECKS: dict[str, Callable[[Drawn], None] | str] = {
     "conformance scenario": "lists keys",
     "conformance simulate": "writes a recording and its truth, all of it valid",
     "conformance export": "writes recordings",
+    "conformance sample": "writes recordings and a reference",
     "conformance explain": "explains a check",
     "conformance selftest": "counts devices and checks",
 }

@@ -70,7 +70,7 @@ def test_the_format_is_taken_by_name_too_and_a_target_is_not_replaced(folder, ra
 def test_a_missing_library_is_told_before_the_work(folder, monkeypatch, refused):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     monkeypatch.setattr(process_module, "make_profile", None)
-    assert "b.parquet: writing Parquet needs pyarrow; install floatref[adapters]" in refused(
+    assert "b.parquet: writing Parquet needs pyarrow; run in a clone of floatref: pip" in refused(
         "process", folder / "run", "--out", folder / "b.parquet"
     )
 

@@ -38,6 +38,7 @@ def test_an_error_of_the_system_is_one_line(
     assert (result.exit_code, result.stderr) == (2, line)
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 @pytest.mark.parametrize("unbuffered", [pytest.param("", marks=pytest.mark.slow), "1"])
 @pytest.mark.parametrize("words", [["--help"], ["iri", "--help"], ["iri", "P"]])

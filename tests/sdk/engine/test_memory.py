@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.posix]
 
 RATE, SPEED, SECONDS, INTERVAL_M = 16_000, 50 / 3.6, 250, 0.0005
 POINT_BYTES = 9

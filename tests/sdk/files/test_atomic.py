@@ -106,7 +106,7 @@ def test_an_existing_target_is_refused_and_kept(recording: Recording, tmp_path: 
     for name, write in writers:
         write(tmp_path / name)
         before = listing(tmp_path)
-        with pytest.raises(InputError, match=f"{name}: exists; choose another name, or overwrite"):
+        with pytest.raises(InputError, match=f"{name}: exists; choose another name"):
             write(tmp_path / name)
         assert listing(tmp_path) == before
 
@@ -140,6 +140,7 @@ def test_a_folder_that_holds_something_else_is_never_replaced(
     assert read_profile(tmp_path / "empty").tracks[0].name == "left"
 
 
+@pytest.mark.posix
 def test_files_and_folders_are_not_taken_for_each_other(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x")
     (tmp_path / "folder").mkdir()
@@ -151,6 +152,7 @@ def test_files_and_folders_are_not_taken_for_each_other(tmp_path: Path) -> None:
         write_profile_csv(profile(), Path("/dev/null"), overwrite=True)
 
 
+@pytest.mark.posix
 def test_a_link_stays_a_link_to_what_is_replaced(tmp_path: Path) -> None:
     write_profile_csv(profile(1.0), tmp_path / "real.csv")
     (tmp_path / "link.csv").symlink_to("real.csv")
@@ -159,6 +161,7 @@ def test_a_link_stays_a_link_to_what_is_replaced(tmp_path: Path) -> None:
     assert read_profile(tmp_path / "real.csv").tracks[0].elevation[0] == 2.0
 
 
+@pytest.mark.posix
 def test_impossible_targets_are_named(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x")
     (tmp_path / "loop").symlink_to("loop")
@@ -175,6 +178,7 @@ def test_impossible_targets_are_named(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "loop"]
 
 
+@pytest.mark.posix
 def test_a_folder_that_may_not_be_written_is_named(
     tmp_path: Path, unprivileged: Callable[[], AbstractContextManager[None]]
 ) -> None:
@@ -211,7 +215,7 @@ def test_a_target_that_appears_meanwhile_is_kept(tmp_path: Path) -> None:
 
 def test_a_target_can_be_checked_before_the_work(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x")
-    with pytest.raises(InputError, match="file: exists; choose another name, or overwrite it"):
+    with pytest.raises(InputError, match="file: exists; choose another name"):
         check_target(tmp_path / "file")
     with pytest.raises(InputError, match=r"its folder does not exist; make .*none first"):
         check_target(tmp_path / "none" / "p")

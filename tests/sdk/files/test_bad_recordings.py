@@ -163,6 +163,7 @@ def test_a_file_that_is_no_such_json_is_named(folder: Path, content: bytes, text
         assert re.search(text, line)
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize(("spoil", "text"), [case[1:] for case in FILES],
                          ids=[case[0] for case in FILES])  # fmt: skip
 def test_a_spoilt_sample_file_is_named(
@@ -206,6 +207,7 @@ def test_a_path_that_is_no_path_is_named(folder: Path) -> None:
         assert f"{name!a}: no possible file name" in refusal(read_recording, Path(name))
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize("name", ["recording.json", "left.height.f64"])
 def test_a_file_that_may_not_be_read_is_named(
     folder: Path, name: str, unprivileged: Callable[[], AbstractContextManager[None]]

@@ -146,7 +146,7 @@ def test_missing_matplotlib_says_how_to_get_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(InputError, match=r"pip install 'floatref\[plot\]'"):
+    with pytest.raises(InputError, match=r"pip install -e \"\.\[plot\]\""):
         draw_profile(profile("left"), tmp_path / "p.png")
 
 
@@ -168,3 +168,14 @@ def test_importing_loads_no_matplotlib_and_drawing_no_pyplot(tmp_path: Path) -> 
     )
     subprocess.run([sys.executable, "-c", code, str(tmp_path / "p.png")], check=True)
     assert (tmp_path / "p.png").exists()
+
+
+def test_a_placement_is_written_above_the_comparison(tmp_path: Path) -> None:
+    run = profile("left")
+    for name, placement_m in (("placed", 65.0), ("earlier", -65.0), ("right", 0.0), ("none", None)):
+        draw_comparison(run, run, tmp_path / f"{name}.svg", placement_m=placement_m)
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in tmp_path.glob("*.svg")}
+    drawn = {name: text.count('<g id="text_') for name, text in texts.items()}
+    assert drawn["placed"] == drawn["earlier"] == drawn["none"] + 1 == drawn["right"] + 1
+    assert "lay 65.00 m farther along" in texts["placed"]
+    assert "lay 65.00 m earlier" in texts["earlier"]

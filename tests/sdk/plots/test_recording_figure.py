@@ -49,5 +49,5 @@ def test_a_single_sample_is_seen() -> None:
 
 def test_a_missing_matplotlib_is_named_with_its_extra(monkeypatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(InputError, match=r"needs matplotlib; run: pip install 'floatref\[plot\]'"):
+    with pytest.raises(InputError, match=r"needs matplotlib; .*-e \"\.\[plot\]"):
         recording().plot()

@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from floatref_adapters.shared.refusals import library
+
 Numbers = NDArray[Any]
 ALGEBRAIC, RANGES, BY_VALUE, BY_RANGE = 3, 6, 7, 8
 """Types of conversion: a formula, a table by ranges, and two tables that may give text."""
@@ -50,8 +52,7 @@ def convert(conversion: Any, raw: Numbers) -> NDArray[np.float64]:
 
 def _evaluate(formula: str, raw: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return ``formula`` of X; asammdf would leave a bad one out without an error."""
-    from numexpr import evaluate
-
+    evaluate = library("numexpr", "an algebraic conversion").evaluate
     text = re.sub(r"\bX1?\b", "X", formula)
     found = evaluate(text, local_dict={"X": raw}, global_dict={}, sanitize=True)
     return np.broadcast_to(np.asarray(found, np.float64), raw.shape).copy()

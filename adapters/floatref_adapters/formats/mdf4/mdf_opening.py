@@ -14,6 +14,7 @@ from typing import Any, BinaryIO
 from floatref import InputError
 from floatref_adapters.formats.mdf4.block_links import check_links, read_block
 from floatref_adapters.formats.mdf4.data_blocks import Part, expand, find_parts
+from floatref_adapters.shared.refusals import library
 
 MAGIC = (b"MDF     ", b"UnFinMF ")
 LAST_LENGTHS = 0b10100
@@ -26,10 +27,7 @@ def open_mdf(source: Path) -> Any:
     """Return asammdf's MDF of ``source``; InputError in one line if it is damaged."""
     with source.open("rb") as file:
         _check(file, source.stat().st_size)
-    try:
-        from asammdf import MDF
-    except ImportError:
-        raise InputError("reading MDF4 needs asammdf; install floatref[adapters]") from None
+    MDF = library("asammdf", "reading MDF4").MDF
     with quiet():
         fault = ""
         try:

@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from floatref.measures.locating.lags import Line
+from floatref.measures.locating.placing import MAX_OFFSET_M
 from floatref.values.profile import Profile
+from floatref_conformance.certify.fitting.fit import Fit
 from floatref_conformance.certify.judging.contents import Cause
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.undoing import Compared, compare_track, find_unusable
-from floatref_conformance.certify.locating.fit import Fit
-from floatref_conformance.certify.locating.lags import Line
-from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
 
 LEAST_MISSING_M = 1.0
 DISTANCE_PERCENT, HEIGHT_PERCENT = 0.15, 1.0

@@ -14,9 +14,9 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures import agreement, iri, on_common_grid
+from floatref.measures.locating.placing import MAX_OFFSET_M
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
-from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from math import isnan
 import numpy as np
 
 from floatref.measures import agreement, iri, on_common_grid
+from floatref.measures.locating.placing import MAX_OFFSET_M
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.contents import (
@@ -19,7 +20,6 @@ from floatref_conformance.certify.judging.contents import (
     StationarySheet,
     Worksheet,
 )
-from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
 from floatref_conformance.checks.evidence import CorrelationLoss, Evidence, Pair, Roughness
 from floatref_conformance.checks.stretches import points
 from floatref_conformance.checks.verdict import Measurement

@@ -12,6 +12,7 @@ from floatref.errors import InputError
 from floatref.files.sources import name_errors
 from floatref.measures import iri
 from floatref.values.profile import Profile
+from floatref_conformance.certify.fitting.fit import fit
 from floatref_conformance.certify.judging.causes import causes
 from floatref_conformance.certify.judging.comparing import (
     Comparison,
@@ -23,7 +24,6 @@ from floatref_conformance.certify.judging.contents import RunSheet, RunTrack, Se
 from floatref_conformance.certify.judging.criteria import judge_section
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.scales import agrees
-from floatref_conformance.certify.locating.fit import fit
 from floatref_conformance.certify.plan.cutting import section_of, within
 from floatref_conformance.certify.plan.plan_document import SectionPlan
 

@@ -7,10 +7,10 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures import agreement
+from floatref.measures.locating.lags import Line
+from floatref.measures.locating.placing import MAX_OFFSET_M
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile
-from floatref_conformance.certify.locating.lags import Line
-from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
 
 MARGIN_M = 5.0
 """Beyond both ends, a profile is continued so far before it is smoothed."""

@@ -6,13 +6,12 @@ from dataclasses import replace
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.measures.locating.placing import MAX_OFFSET_M
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.plan.plan_document import Stretch
 
 SAME_POINT = 1e-6
 """Points nearer than this, in intervals, are the same point: start positions are rounded."""
-MAX_OFFSET_M = 1.0
-"""Largest offset that is searched for, as in `floatref compare`; R 56-14 aligns runs as well."""
 
 
 def section_of(reference: Profile, stretch_m: Stretch | None) -> Profile:

@@ -9,9 +9,9 @@ from floatref.errors import InputError
 from floatref.measures import high_pass, short_interval_roughness
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
+from floatref_conformance.certify.fitting.fit import WINDOW_M, fit
 from floatref_conformance.certify.judging.contents import RunSheet, SectionSheet, StationarySheet
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.locating.fit import WINDOW_M, fit
 from floatref_conformance.certify.worksheet import wording
 from floatref_conformance.render import svg
 from floatref_conformance.render.svg import Figure, Line, Panel, Shade, draw_figure

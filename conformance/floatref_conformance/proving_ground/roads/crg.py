@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from floatref.errors import InputError
+from floatref.errors import InputError, missing_extra
 from floatref.files.sources import name_errors, open_bytes
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref_conformance.proving_ground.roads.road import (
@@ -82,9 +82,7 @@ def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
     try:
         import pycrg
     except ImportError as error:
-        raise InputError(
-            f"{path}: reading OpenCRG needs pycrg; run: pip install 'floatref[conformance]'"
-        ) from error
+        raise missing_extra(f"{path}: reading OpenCRG needs pycrg", "conformance") from error
     try:
         with pycrg.RoadSurface.open(path, apply_modifiers=False) as surface:
             surface.modifier_set_int(pycrg.MOD_GRID_NAN_MODE, pycrg.GRID_NAN_KEEP)

@@ -34,7 +34,7 @@ def shipped_profile() -> FloatArray:
     Its IRI is 3.33 m/km; ``data/sroubek`` holds its source and licence (MIT).
     """
     data = files("floatref_conformance.proving_ground") / "data" / "sroubek" / "profile_1.txt"
-    rows = [line.split() for line in data.read_text().splitlines()]
+    rows = [line.split() for line in data.read_text(encoding="utf-8").splitlines()]
     return np.array([float(elevation) for _, elevation in rows])
 
 

@@ -1,9 +1,7 @@
 """Making the table of families: drive by drive, in one process or several."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Mapping
 from functools import cache, partial
-from multiprocessing import get_context
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
@@ -16,6 +14,7 @@ from floatref_conformance.table.families.family_settings import FamilySettings
 from floatref_conformance.table.families.family_table import FamilyPath, FamilyTable
 from floatref_conformance.table.making import Watch
 from floatref_conformance.table.passes import Processing
+from floatref_conformance.worker_pool import map_in_order
 
 Scored = Mapping[str, FamilyScores] | str
 """The scores of one pipeline on one drive by wheel path, or the reason why there are no scores."""
@@ -33,24 +32,15 @@ def make_family_table(
     watch = watch or (lambda _: None)
     table = FamilyTable(settings)
     drives = list(settings.scenarios(_processing(settings.pipelines).capabilities))
-    results = _score_all(settings, [(name, scenario) for _, name, scenario in drives])
-    for condition, name, scenario in drives:
-        watch(name)
-        for pipeline, scored in next(results).items():
-            table.paths += wheel_paths(pipeline, condition, scenario, scored)
-    return table
-
-
-def _score_all(
-    settings: FamilySettings, drives: Sequence[tuple[str, Scenario]]
-) -> Iterator[Mapping[str, Scored]]:
-    """Yield the scores of every drive, in order; conditions stay here, as they draw by lambdas."""
+    # Conditions stay here, as they draw by lambdas, which no other process can be given.
+    named = zip(*((name, scenario) for _, name, scenario in drives), strict=True)
     score_one = partial(score_drive, settings.pipelines)
-    if settings.jobs == 1:
-        yield from map(score_one, *zip(*drives, strict=True))
-        return
-    with ProcessPoolExecutor(settings.jobs, mp_context=get_context("spawn")) as workers:
-        yield from workers.map(score_one, *zip(*drives, strict=True))
+    with map_in_order(score_one, settings.jobs, *named) as results:
+        for condition, name, scenario in drives:
+            watch(name)
+            for pipeline, scored in next(results).items():
+                table.paths += wheel_paths(pipeline, condition, scenario, scored)
+    return table
 
 
 def score_drive(pipelines: tuple[str, ...], name: str, scenario: Scenario) -> Mapping[str, Scored]:

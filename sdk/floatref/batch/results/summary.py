@@ -11,7 +11,7 @@ from typing import Any
 
 from floatref.batch.jobs.job import PROFILES
 from floatref.batch.results.record import Record, Row
-from floatref.errors import InputError
+from floatref.errors import missing_extra
 from floatref.files.atomic import replace_file
 from floatref.measures import rate_iri
 from floatref.measures.ride.segment_measures import MEASURES
@@ -104,7 +104,7 @@ def _arrow() -> tuple[Any, Any]:
         import pyarrow as pa
         import pyarrow.parquet as parquet
     except ImportError as error:
-        raise InputError("the summary needs pyarrow; install floatref[batch]") from error
+        raise missing_extra("the summary needs pyarrow", "batch") from error
     return pa, parquet
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from floatref.errors import InputError
+from floatref.errors import InputError, missing_extra
 from floatref.files.atomic import replace_file
 from floatref.version import __version__
 
@@ -36,6 +36,8 @@ LOCAL = {
 }
 """Dask's configuration for a local cluster."""
 
+TEMPORARY = ("TMPDIR", "TEMP", "TMP")
+"""Variables that name the folder for temporary files; Windows has the last two."""
 LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
 
 
@@ -46,9 +48,7 @@ def check_installed() -> None:
         import distributed  # noqa: F401
         import pyarrow  # noqa: F401
     except ImportError as error:
-        raise InputError(
-            "a batch needs Dask and pyarrow; run: pip install 'floatref[batch]'"
-        ) from error
+        raise missing_extra("a batch needs Dask and pyarrow", "batch") from error
 
 
 @contextmanager
@@ -106,7 +106,7 @@ def _local(jobs: int | None) -> Iterator["Client"]:
                 processes=True,
                 threads_per_worker=1,
                 dashboard_address=None,
-                env={"TMPDIR": scratch},
+                env=dict.fromkeys(TEMPORARY, scratch),
                 silence_logs=logging.CRITICAL + 1,
             )
             stack.callback(cluster.close)
@@ -166,9 +166,8 @@ def _check_answer(who: str, answer: Any, out: Path, sees: bool) -> None:
     """Raise InputError unless ``answer`` is that of our version, which sees the folder ``out``."""
     if isinstance(answer, Exception):
         reason = f"{type(answer).__name__}: {answer}"
-        raise InputError(
-            f"{who}: cannot run floatref ({reason}); install floatref[batch] {__version__} there"
-        ) from answer
+        task = f"{who}: cannot run floatref ({reason}), it needs version {__version__}"
+        raise missing_extra(task, "batch") from answer
     version, seen = answer
     if version != __version__:
         raise InputError(

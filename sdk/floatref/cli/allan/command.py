@@ -39,6 +39,7 @@ from floatref.values.recording import Channel, Recording
 @click.option(
     "--settings", type=click.Path(path_type=Path), metavar="FILE.json", help="Write settings there."
 )
+@click.option("--overwrite", is_flag=True, help="Replace existing settings.")
 @click.option("--plot", type=click.Path(path_type=Path), metavar="FILE.png", help="Draw it too.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def allan(
@@ -47,6 +48,7 @@ def allan(
     names: tuple[str, ...],
     between: tuple[float, float] | None,
     settings: Path | None,
+    overwrite: bool,
     plot: Path | None,
     as_json: bool,
 ) -> None:
@@ -55,7 +57,7 @@ def allan(
     Densities and random walks of accelerometers and gyros are settings of the Kalman pipelines;
     `floatref process --settings` reads the file that --settings writes.
     """
-    _check_targets(settings, plot)
+    _check_targets(settings, overwrite, plot)
     read = recording_of(recording, adapter).recording
     with name_errors(recording):
         found, warnings = _analyse(read, names, between, quiet=as_json)
@@ -64,15 +66,15 @@ def allan(
             raise InputError("gives no setting; record accelerometers and gyros, for longer")
     with _draw(found, plot):
         if settings is not None:
-            with replace_file(settings) as beside:
+            with replace_file(settings, overwrite) as beside:
                 write_document(report["settings"], beside)
     print_json(report) if as_json else print_tables(found, warnings)
 
 
-def _check_targets(settings: Path | None, plot: Path | None) -> None:
+def _check_targets(settings: Path | None, overwrite: bool, plot: Path | None) -> None:
     """Raise InputError now for a target to which writing would fail later."""
     if settings is not None:
-        check_target(settings)
+        check_target(settings, overwrite)
     if plot is not None:
         from floatref.plots import check_drawing
 

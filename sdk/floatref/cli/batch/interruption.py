@@ -8,7 +8,8 @@ from typing import NoReturn
 
 import click
 
-INTERRUPTED = 130
+from floatref.cli.lazy import INTERRUPTED
+
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref.errors import InputError
+from floatref.errors import InputError, missing_extra
 from floatref.files.gis.lines import Line
 
 LAYER = "segments"
@@ -82,5 +82,5 @@ def _libraries() -> tuple[Any, Any]:
         import shapely
     except ImportError as error:
         missing = error.name or "pyogrio"
-        raise InputError(f"a GeoPackage needs {missing}; install floatref[gis]") from error
+        raise missing_extra(f"a GeoPackage needs {missing}", "gis") from error
     return pyogrio, shapely

@@ -104,9 +104,9 @@ def test_a_missing_library_is_named_with_the_extra(tmp_path, profile, monkeypatc
     path = tmp_path / "a.parquet"
     ParquetProfile().write(profile, path)
     monkeypatch.setitem(sys.modules, library, None)
-    with pytest.raises(InputError, match=r"a\.parquet: reading Parquet needs pyarrow; install fl"):
+    with pytest.raises(InputError, match=r"a\.parquet: .* needs pyarrow; .*\.\[adapters\]"):
         ParquetProfile().read(path)
-    with pytest.raises(InputError, match=r"writing Parquet needs pyarrow; install floatref\[ad"):
+    with pytest.raises(InputError, match=r"writing Parquet needs pyarrow; .*\.\[adapters\]"):
         ParquetProfile().write(profile, tmp_path / "b.parquet")
 
 

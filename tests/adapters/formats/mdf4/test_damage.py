@@ -146,4 +146,5 @@ def test_without_asammdf_one_line_says_what_to_install(
 ) -> None:
     small(tmp_path / "a.mf4")
     monkeypatch.setitem(sys.modules, "asammdf", None)
-    assert "needs asammdf; install floatref[adapters]" in refused(tmp_path / "a.mf4")
+    line = refused(tmp_path / "a.mf4")
+    assert 'needs asammdf; run in a clone of floatref: pip install -e ".[adapters]"' in line

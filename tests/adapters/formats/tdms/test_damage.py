@@ -71,4 +71,4 @@ def test_without_nptdms_one_line_says_what_to_install(
     path = tmp_path / "a.tdms"
     path.write_bytes(segment(META | NEW | RAW, doubles(1, 2), bytes(16)))
     monkeypatch.setitem(sys.modules, "nptdms", None)
-    assert "needs nptdms; install floatref[adapters]" in refused(path)
+    assert 'needs nptdms; run in a clone of floatref: pip install -e ".[adapters]"' in refused(path)

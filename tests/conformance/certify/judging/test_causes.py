@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from floatref.measures import high_pass
 from floatref.values.profile import ProfileTrack
+from floatref_conformance.certify.fitting.fit import fit
 from floatref_conformance.certify.judging.causes import causes
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.locating.fit import fit
 
 STRICT = CertificationLimits(repeatability=0.98, accuracy=0.98)
 

@@ -164,6 +164,7 @@ def test_every_source_is_told_once(folder: Path) -> None:
     assert sorted(warnings) == sorted(set(paths))
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize("error", [KeyboardInterrupt, ZeroDivisionError])
 def test_nothing_is_left_when_it_is_interrupted(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: type[BaseException]
@@ -180,6 +181,7 @@ def test_nothing_is_left_when_it_is_interrupted(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.posix
 def test_on_leaving_what_runs_is_ended_and_nothing_starts(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -59,6 +59,7 @@ def test_a_name_with_the_signs_of_a_pattern_can_be_given(folder: Path) -> None:
     assert found(folder, "run[1].erd") == ["run[1].erd"]
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize("link", ["again.erd", "./run-2.erd"])
 def test_a_run_that_is_reached_twice_is_one(folder: Path, link: str) -> None:
     (folder / "again.erd").symlink_to(folder / "run-2.erd")
@@ -118,6 +119,7 @@ def test_numbers_in_names_count_as_numbers(numbers: list[int]) -> None:
     assert names == [f"run-{number}.erd" for number in sorted(numbers)]
 
 
+@pytest.mark.posix
 def test_a_link_to_nothing_is_a_run_that_will_tell_so(folder: Path) -> None:
     (folder / "more" / "run-2.csv").symlink_to("gone.csv")
     assert found(folder, "more") == ["more/run-1.csv", "more/run-2.csv"]

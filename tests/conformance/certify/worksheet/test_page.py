@@ -116,6 +116,6 @@ def test_a_page_replaces_an_older_one_or_leaves_it(certified, tmp_path, monkeypa
     assert path.read_text(encoding="utf-8") == as_html(certified())
     assert list(tmp_path.iterdir()) == [path]
     monkeypatch.setattr(text, "find_spec", lambda name: None)
-    with pytest.raises(InputError, match=r"pip install 'floatref\[conformance\]'"):
+    with pytest.raises(InputError, match=r"pip install -e \"\.\[conformance\]\""):
         write_page(certified(), path)
     assert path.read_text(encoding="utf-8") == as_html(certified())

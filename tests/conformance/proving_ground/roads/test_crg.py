@@ -132,5 +132,5 @@ def test_what_is_no_surface_is_named_in_one_line(
 def test_a_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write(tmp_path / "a.crg", hills())
     monkeypatch.setitem(sys.modules, "pycrg", None)
-    with pytest.raises(InputError, match=r"a\.crg: .* pip install 'floatref\[conformance\]'"):
+    with pytest.raises(InputError, match=r"a\.crg: .* pip install -e \"\.\[conformance\]\""):
         crg_road(path, 60.0)

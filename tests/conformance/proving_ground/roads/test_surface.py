@@ -115,6 +115,7 @@ for line in open("/proc/self/status"):
 """`getrusage` would have the parent's largest size after a fork, too."""
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 def test_ten_kilometres_at_25_mm_and_3_m_wide_fit_in_600_mb() -> None:
     command = [sys.executable, "-c", TEN_KILOMETRES]

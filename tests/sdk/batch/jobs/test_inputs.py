@@ -51,6 +51,7 @@ def test_a_job_knows_where_its_source_is_and_how_large(tree, find, tmp_path, mon
         assert job.profile.is_relative_to(tmp_path / "out")
 
 
+@pytest.mark.posix
 def test_every_way_to_a_source_leads_to_one_job(tree, find):
     run = tree / "ours" / "run"
     (tree / "link.csv").symlink_to(tree / "csv" / "run.csv")
@@ -61,6 +62,7 @@ def test_every_way_to_a_source_leads_to_one_job(tree, find):
     assert names(found) == ["run.csv"]
 
 
+@pytest.mark.posix
 def test_links_to_folders_are_not_followed(tree, find):
     (tree / "ours" / "loop").symlink_to(tree, target_is_directory=True)
     found = find(tree / "ours")
@@ -177,6 +179,7 @@ def test_a_folder_that_an_adapter_recognises_is_one_source(tree, find, know):
     assert found.jobs[0].size_bytes == 3
 
 
+@pytest.mark.posix
 def test_a_pipe_in_a_tree_is_not_waited_for(tree, find):
     os.mkfifo(tree / "csv" / "pipe.csv")
     found = find(tree / "csv")
@@ -184,11 +187,13 @@ def test_a_pipe_in_a_tree_is_not_waited_for(tree, find):
     assert found.passed_over == (tree / "csv" / "pipe.csv",)
 
 
+@pytest.mark.posix
 def test_a_link_that_leads_nowhere_is_a_source_that_cannot_be_read(tree, find):
     (tree / "csv" / "gone.mf4").symlink_to(tree / "nowhere.mf4")
     assert names(find(tree / "csv")) == ["gone.mf4", "run.csv"]
 
 
+@pytest.mark.posix
 def test_a_ring_of_links_is_a_source_that_cannot_be_read(tree, find):
     for one, other in (("a.csv", "b.csv"), ("b.csv", "a.csv"), ("a", "a")):
         (tree / "ours" / one).symlink_to(other)

@@ -9,6 +9,7 @@ from floatref.batch.jobs.inputs import Defaults, find_jobs
 from floatref.errors import InputError
 
 
+@pytest.mark.posix
 @pytest.mark.parametrize(
     ("given", "options", "said"),
     [

@@ -59,8 +59,9 @@ def test_workers_that_share_the_folder_will_do(tmp_path: Path) -> None:
         (sees_another_disk, "does not see {out}; choose a folder that all machines share"),
         (
             lacks_floatref,
-            "cannot run floatref (ModuleNotFoundError: No module named 'floatref'); "
-            f"install floatref[batch] {__version__} there",
+            "cannot run floatref (ModuleNotFoundError: No module named 'floatref'), "
+            f"it needs version {__version__}; run in a clone of floatref: "
+            'pip install -e ".[batch]"',
         ),
         (is_older, f"has floatref 0.0.1, and we {__version__}; install the same there"),
     ],

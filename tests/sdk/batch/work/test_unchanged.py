@@ -140,6 +140,7 @@ def test_another_version_does_the_work_again(
     assert counted.count == 2
 
 
+@pytest.mark.posix
 @pytest.mark.slow
 def test_a_link_that_leads_elsewhere_is_another_input(
     jobs: dict[str, Job], folder: Path, counted: Counted

@@ -69,7 +69,7 @@ def test_wrong_usage_is_one_line_and_leaves_nothing(
 
 def test_a_missing_extra_is_named(runs: Path, monkeypatch: pytest.MonkeyPatch, refused) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
-    assert "pip install 'floatref[batch]'" in refused("batch", "runs", "--out", "out")
+    assert 'pip install -e ".[batch]"' in refused("batch", "runs", "--out", "out")
     assert not (runs / "out").exists()
 
 

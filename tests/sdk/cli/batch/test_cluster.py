@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.posix]
 
 FILES = {"a": ("ready", 300), "b": ("ready", 200), "c": ("ready", 100), "bad": ("odd", 50)}
 IMPATIENT = (

@@ -15,6 +15,7 @@ from matplotlib.image import imread
 
 pytestmark = [
     pytest.mark.slow,
+    pytest.mark.posix,
     pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks at processes"),
 ]
 COMMAND = which("floatref", path=os.pathsep.join([str(Path(sys.executable).parent), os.defpath]))

@@ -133,6 +133,7 @@ def test_no_path_of_a_map_leaves_its_folder(
     assert message in refusal(save(f"{HEAD}[source]\ndbc = {quoted(name)}\n{LASER}"))
 
 
+@pytest.mark.posix
 def test_a_link_that_leaves_the_folder_is_refused_and_one_that_stays_is_not(
     save: Save, refusal: Refusal, tmp_path: Path
 ) -> None:
@@ -146,6 +147,7 @@ def test_a_link_that_leaves_the_folder_is_refused_and_one_that_stays_is_not(
     assert read_map(path).files["more"].path == path.parent.resolve() / "real.log"
 
 
+@pytest.mark.posix
 def test_links_that_go_round_are_refused(save: Save, refusal: Refusal) -> None:
     path = save(with_path("a"))
     (path.parent / "a").symlink_to("b")

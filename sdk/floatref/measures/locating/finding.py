@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from floatref.values.profile import Profile
-from floatref_conformance.certify.locating.candidates import (
+from floatref.measures.locating.candidates import (
     APART_M,
     SURE_SCORE,
     Candidate,
@@ -17,8 +16,9 @@ from floatref_conformance.certify.locating.candidates import (
     scales_of,
     search,
 )
-from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS
-from floatref_conformance.certify.locating.slopes import Slope, align, slope_of
+from floatref.measures.locating.profile_units import DISTANCE_UNITS
+from floatref.measures.locating.slopes import Slope, align, slope_of
+from floatref.values.profile import Profile
 
 PIECE_M = 160.0
 """Length of the pieces of the reference that are searched for."""

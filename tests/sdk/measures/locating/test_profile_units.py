@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from floatref_conformance.certify.locating.profile_units import (
+from floatref.measures.locating.profile_units import (
     DISTANCE_UNITS,
     HEIGHT_UNITS,
     height_unit,

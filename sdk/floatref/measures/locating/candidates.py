@@ -13,8 +13,8 @@ import numpy as np
 from numpy.fft import irfft, rfft
 from numpy.typing import NDArray
 
+from floatref.measures.locating.slopes import STEP_M, Slope
 from floatref.values.arrays import FloatArray
-from floatref_conformance.certify.locating.slopes import STEP_M, Slope
 
 
 class Searched:

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.measures import agreement, on_common_grid
+from floatref.measures.locating.placing import apply_placement, place
+from floatref.measures.locating.profile_units import DISTANCE_UNITS, HEIGHT_UNITS
 from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.certify.locating.placing import apply_placement, place
-from floatref_conformance.certify.locating.profile_units import DISTANCE_UNITS, HEIGHT_UNITS
 
 
 def correlations(reference, run):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures import waveband_slope
+from floatref.measures.roughness.wavebands import waveband_slope
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import ProfileTrack
 

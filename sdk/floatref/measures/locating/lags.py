@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from floatref.measures.locating.slopes import STEP_M, Slope
 from floatref.values.arrays import BoolArray, FloatArray
-from floatref_conformance.certify.locating.slopes import STEP_M, Slope
 
 WINDOW_M = 10.0
 SEARCH_M = 1.0

@@ -6,27 +6,29 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures import agreement, on_common_grid
-from floatref.values.profile import Profile
-from floatref_conformance.certify.locating.candidates import Candidate
-from floatref_conformance.certify.locating.finding import Find, find, pieces_of
-from floatref_conformance.certify.locating.lags import Line, follow_line, gain, window_lags
-from floatref_conformance.certify.locating.placement import (
+from floatref.measures.locating.candidates import Candidate
+from floatref.measures.locating.finding import Find, find, pieces_of
+from floatref.measures.locating.lags import Line, follow_line, gain, window_lags
+from floatref.measures.locating.placement import (
     COVERED_M,
     Placement,
     add_sentences,
     apply_placement,
     not_found,
 )
-from floatref_conformance.certify.locating.profile_units import (
+from floatref.measures.locating.profile_units import (
     DISTANCE_UNITS,
     HEIGHT_UNITS,
     METRE,
     height_unit,
 )
-from floatref_conformance.certify.locating.slopes import slope_of
-from floatref_conformance.certify.plan.cutting import MAX_OFFSET_M
+from floatref.measures.locating.slopes import slope_of
+from floatref.measures.roughness.agreement import on_common_grid
+from floatref.measures.roughness.wavebands import agreement
+from floatref.values.profile import Profile
 
+MAX_OFFSET_M = 1.0
+"""A run that lies within this of its place lies right: the comparison finds its offset."""
 LIES_RIGHT = 0.9
 """Correlation from which on a run that lies right is not searched for anywhere else."""
 SAME_HEIGHT = 1.3

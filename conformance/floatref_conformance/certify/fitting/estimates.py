@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.values.arrays import FloatArray
-from floatref_conformance.certify.locating.spectra import Spectra, Windows
+from floatref_conformance.certify.fitting.spectra import Spectra, Windows
 
 BLOCKS = 12
 """Stretches of the section, each left out once to estimate the scatter."""

@@ -5,15 +5,15 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from floatref.values.arrays import FloatArray
-from floatref.values.profile import Profile, ProfileTrack
-from floatref_conformance.certify.locating.candidates import LARGEST_SCALE
-from floatref_conformance.certify.locating.finding import Find
-from floatref_conformance.certify.locating.profile_units import (
+from floatref.measures.locating.candidates import LARGEST_SCALE
+from floatref.measures.locating.finding import Find
+from floatref.measures.locating.profile_units import (
     DISTANCE_UNITS,
     METRE,
     reference_unit,
 )
+from floatref.values.arrays import FloatArray
+from floatref.values.profile import Profile, ProfileTrack
 
 
 @dataclass(frozen=True)

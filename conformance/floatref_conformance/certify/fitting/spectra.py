@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from floatref.measures.locating.lags import Line
+from floatref.measures.locating.slopes import usable_points
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import ProfileTrack
-from floatref_conformance.certify.locating.lags import Line
-from floatref_conformance.certify.locating.slopes import usable_points
 
 Spectra = NDArray[np.complex128]
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from floatref.measures.locating.finding import find_forward, pieces_of
+from floatref.measures.locating.lags import Line, follow_line
+from floatref.measures.locating.slopes import slope_of
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
-from floatref_conformance.certify.locating.estimates import Estimate, estimate, long_gain
-from floatref_conformance.certify.locating.finding import find_forward, pieces_of
-from floatref_conformance.certify.locating.lags import Line, follow_line
-from floatref_conformance.certify.locating.slopes import slope_of
-from floatref_conformance.certify.locating.spectra import Surface, Windows, windows_of
+from floatref_conformance.certify.fitting.estimates import Estimate, estimate, long_gain
+from floatref_conformance.certify.fitting.spectra import Surface, Windows, windows_of
 
 WINDOW_M, LONG_WINDOW_M = 12.8, 38.4
 LONGEST_M, SHORTEST_M = 6.5, 0.4

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from floatref.errors import InputError
 from floatref.values.profile import ProfileTrack
-from floatref_conformance.certify.locating.fit import fit
+from floatref_conformance.certify.fitting.fit import fit
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from floatref.errors import InputError
 from floatref.values.display.similar_names import suggest
 from floatref_conformance.certify.plan.plan_document import Plan, Processing
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.cli.certify_options import Limit, limits_with, plan_of
+from floatref_conformance.cli.certify.certify_options import Limit, limits_with, plan_of
 
 if TYPE_CHECKING:
     from floatref_conformance.certify.judging.contents import Worksheet

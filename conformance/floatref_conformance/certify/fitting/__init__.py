@@ -1,0 +1,1 @@
+"""How a run lies on the reference: scales of distance and heights, from windows."""

@@ -1,0 +1,1 @@
+"""`conformance certify`: the judgement of a profiler from recorded runs, and its options."""

@@ -1,0 +1,1 @@
+"""Sample data, drawn by the proving ground: what a new user tries the commands on."""

@@ -1,0 +1,83 @@
+"""Worker processes that end with the command: after Ctrl-C, SIGTERM or an error at once.
+
+Ctrl-C reaches every process of a terminal. The first one alone decides; a worker that heard it
+would print a traceback of its own, or die while others wait for it.
+"""
+
+import signal
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
+from multiprocessing import active_children, get_context, resource_tracker
+from tempfile import TemporaryDirectory
+from typing import Any, TypeVar
+
+Result = TypeVar("Result")
+
+
+class WorkerPool(ProcessPoolExecutor):
+    """A pool whose processes are deaf to Ctrl-C from their first instruction on."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Submit ``fn``; a process may be started for it."""
+        with _without_interrupts():
+            return super().submit(fn, *args, **kwargs)
+
+
+@contextmanager
+def worker_pool(processes: int) -> Iterator[WorkerPool]:
+    """Yield a pool whose processes, and their temporary files, end with it, after an error at once.
+
+    A fork would share the threads of this process.
+    """
+    others = set(active_children())
+    with TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
+        pool = WorkerPool(processes, get_context("spawn"), _prepare_worker, (scratch,))
+        try:
+            yield pool
+        except BaseException:
+            for worker in set(active_children()) - others:
+                worker.terminate()
+            raise
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def map_in_order(
+    do: Callable[..., Result], processes: int, *items: Sequence[Any]
+) -> Iterator[Iterator[Result]]:
+    """Yield the results of ``do`` for all ``items``, as `map` does, by ``processes``.
+
+    One process is this one.
+    """
+    if processes == 1:
+        yield map(do, *items)
+        return
+    with worker_pool(processes) as workers:
+        yield workers.map(do, *items)
+
+
+def _prepare_worker(scratch: str) -> None:
+    """Write temporary files into ``scratch``; the first process alone decides on Ctrl-C."""
+    tempfile.tempdir = scratch
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def _without_interrupts() -> Iterator[None]:
+    """Hold Ctrl-C back in this thread; a process that is started meanwhile never hears it.
+
+    Windows has no such masks: there a worker hears it until `_prepare_worker` has run.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    # It changes the mask itself, once.
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
