@@ -17,7 +17,7 @@ import numpy as np
 from kind_drives import KIND
 
 from floatref import Profile, Recording, process, read_native
-from floatref.engine.readers import native_of, reader_of
+from floatref.engine.recordings.readers import native_of, reader_of
 from floatref.mapping.draft.drafting import draft_map
 from floatref.measures import iri
 from floatref_adapters.testing import WRITERS

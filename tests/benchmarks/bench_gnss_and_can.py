@@ -124,7 +124,7 @@ def bare(form: str, path: Path) -> int:
 
 def adapter(form: str, path: Path) -> int:
     """Read every column through the adapter; return how many numbers they had."""
-    from floatref.engine.readers import native_of, reader_of
+    from floatref.engine.recordings.readers import native_of, reader_of
 
     options = {"dbc": str(path.with_name("wheels.dbc"))} if form == "asc" else {}
     count = 0

@@ -148,7 +148,7 @@ def bare(form: str, path: Path) -> None:
 
 def adapter(form: str, path: Path) -> None:
     """Read every column through the adapter, as a mapping does, and let go of it."""
-    from floatref.engine.readers import native_of, reader_of
+    from floatref.engine.recordings.readers import native_of, reader_of
 
     total = 0.0
     with native_of(reader_of(path, None), path, {}) as native:

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from floatref import hookimpl
 from floatref.engine import formats, plugins, run
+from floatref.engine.recordings import readers
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
 
@@ -24,7 +25,7 @@ def know(monkeypatch: pytest.MonkeyPatch) -> Callable[[object], None]:
 
         loaded = plugins.Plugins()
         loaded.add(Plugin(), "logger")
-        for module in (formats, run):
+        for module in (formats, readers, run):
             monkeypatch.setattr(module, "plugins", lambda: loaded)
 
     return install

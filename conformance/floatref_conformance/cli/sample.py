@@ -7,7 +7,6 @@ from pathlib import Path
 
 import click
 
-from floatref.cli.choices import OneOf
 from floatref.files.atomic import replace_directory
 
 Writer = Callable[[Path, int, Callable[[str], None]], None]
@@ -34,7 +33,7 @@ KINDS = {
 
 
 @click.command()
-@click.argument("kind", type=OneOf(tuple(KINDS)))
+@click.argument("kind", type=click.Choice(tuple(KINDS)))
 @click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder to write.")
 @click.option(
     "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Draws everything."

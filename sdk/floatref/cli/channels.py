@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from floatref.cli.printing import number, print_json, print_table, progress_bar
-from floatref.engine.readers import is_native, native_of, read_source, reader_of
+from floatref.engine.recordings.readers import is_native, native_of, read_source, reader_of
 from floatref.errors import InputError, one_line
 from floatref.values.clock import UniformClock
 from floatref.values.native import NativeClock, NativeFile, Stream

@@ -8,7 +8,7 @@ from floatref.cli.format_option import FormatName
 from floatref.cli.printing import number, print_table
 from floatref.engine.formats import format_of, profile_of, write_as
 from floatref.engine.plugins import plugins
-from floatref.engine.recording_formats import (
+from floatref.engine.recordings.recording_formats import (
     is_recording,
     recording_format_of,
     write_recording_as,

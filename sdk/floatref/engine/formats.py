@@ -1,15 +1,14 @@
 """Choosing a profile format and calling it; its own failures as one line."""
 
 import shlex
-from collections.abc import Callable
 from os.path import exists
 from pathlib import Path
 
 from floatref.engine.plugins import plugins
-from floatref.engine.readers import failure, find_readers
+from floatref.engine.recordings.plug_in_files import failure, write_file
+from floatref.engine.recordings.readers import find_readers
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import read_profile, write_profile
-from floatref.files.atomic import replace_file
 from floatref.files.sources import name_errors
 from floatref.files.withheld_formats import refuse_to_read, refuse_to_write
 from floatref.interfaces.adapter import RecordingDirectory
@@ -129,23 +128,3 @@ def write_as(form: ProfileFormat, profile: Profile, out: Path, overwrite: bool =
         write_profile(profile, out, overwrite)
         return
     write_file(form.name, out, lambda beside: form.write(profile, beside), overwrite)
-
-
-def write_file(
-    name: str, out: Path, write: Callable[[Path], None], overwrite: bool = False
-) -> None:
-    """Let ``write``, of the format called ``name``, make a file beside ``out``, then rename it.
-
-    Raises InputError as ``write`` does, with the name of ``out``, and PluginError for its others.
-    """
-    with replace_file(out, overwrite) as beside:
-        try:
-            write(beside)
-        except InputError as error:
-            raise InputError(str(error).replace(str(beside), str(out))) from error
-        except (FloatrefError, OSError):
-            raise
-        except Exception as error:
-            raise PluginError(failure(f"format {name}", out, error)) from error
-        if not beside.is_file():
-            raise PluginError(f"format {name}: {out}: wrote no file")

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
 
-from floatref.engine.readers import native_of, reader_of
+from floatref.engine.recordings.readers import native_of, reader_of
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
 from floatref.mapping.channel_map.clock_entries import name_stream

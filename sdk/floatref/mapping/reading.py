@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from floatref.engine.readers import guard
+from floatref.engine.recordings.readers import guard
 from floatref.errors import one_line
 from floatref.files.sources import name_errors
 from floatref.mapping.channel_map.column_names import find, full_name, map_of_ours

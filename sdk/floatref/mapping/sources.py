@@ -7,7 +7,7 @@ from os.path import relpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from floatref.engine.readers import is_native, read_source, reader_of
+from floatref.engine.recordings.readers import is_native, read_source, reader_of
 from floatref.errors import InputError
 from floatref.files import fingerprint, fingerprint_native
 from floatref.files.sources import name_errors

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from floatref import Profile, Recording, Setup, process, read_native
-from floatref.engine.readers import native_of, reader_of
+from floatref.engine.recordings.readers import native_of, reader_of
 from floatref.mapping.draft.drafting import draft_map
 from floatref.measures import iri
 from floatref_adapters.testing import WRITERS

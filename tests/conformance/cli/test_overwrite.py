@@ -32,6 +32,8 @@ TARGETS = {
     "simulate": ("simulate", "case.json", "--out", "old"),
     "export": ("export", "--out", "old"),
     "sample": ("sample", "network", "--out", "old"),
+    "view": ("view", "road", "-o", "old.html"),
+    "plot": ("plot", "road", "-o", "old.png"),
     "iri": ("iri", "road", "--gis", "old.geojson", "--recording", "run"),
     "roughness": ("roughness", "road", "--gis", "old.geojson", "--recording", "run"),
 }
@@ -53,7 +55,7 @@ def folder(tmp_path, monkeypatch):
     write_recording(
         Recording((Channel.of("height", np.zeros(99), UniformClock.of(9.0)),)), tmp_path / "run"
     )
-    for name in ("old", "old.geojson"):
+    for name in ("old", "old.geojson", "old.html", "old.png"):
         (tmp_path / name).write_text("mine")
     return tmp_path
 

@@ -112,6 +112,8 @@ CHECKS: dict[str, Callable[[Drawn], None] | str] = {
     "floatref compare": check_compare,
     "floatref convert": check_convert,
     "floatref batch": check_batch,
+    "floatref view": "its pages mark what is not valid: tests/sdk/viewer, in a browser",
+    "floatref plot": "dotted where not valid, as the pictures of process: tests/sdk/plots",
     "floatref pipelines": "lists pipelines",
     "floatref adapters": "lists adapters and formats",
     "floatref channels": "shows channels of a recording",

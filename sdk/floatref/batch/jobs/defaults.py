@@ -9,7 +9,7 @@ from typing import Any
 
 from floatref.engine.automatic import resolve_named_or_best
 from floatref.engine.choosing import AUTO
-from floatref.engine.readers import get_reader, is_native
+from floatref.engine.recordings.readers import get_reader, is_native
 from floatref.errors import InputError
 from floatref.mapping.channel_map.entries import ChannelMap
 from floatref.mapping.channel_map.map_document import read_map

@@ -19,7 +19,7 @@ from floatref.batch.jobs.recognition import (
     walk,
 )
 from floatref.batch.jobs.source_names import name_below, unique_names
-from floatref.engine.readers import find_readers
+from floatref.engine.recordings.readers import find_readers
 from floatref.errors import InputError
 from floatref.files.recording_directory import DOCUMENT as RECORDING
 from floatref.files.sources import name_errors

@@ -9,7 +9,7 @@ from floatref.batch.jobs.job import PROFILES, RECORDS
 from floatref.batch.jobs.manifest import is_manifest
 from floatref.batch.jobs.natural_order import natural_key
 from floatref.engine.plugins import plugins
-from floatref.engine.readers import find_readers
+from floatref.engine.recordings.readers import find_readers
 from floatref.errors import InputError
 from floatref.files.profile_directory import DOCUMENT as PROFILE
 from floatref.files.profile_directory import FORMAT

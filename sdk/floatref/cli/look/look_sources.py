@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from floatref.engine.formats import is_profile, profile_of
-from floatref.engine.readers import find_readers
+from floatref.engine.recordings.readers import find_readers
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
 from floatref.interfaces.adapter import RecordingDirectory

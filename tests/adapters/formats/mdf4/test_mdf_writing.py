@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from tests.adapters.drawn_recordings import recordings
 
 from floatref import Channel, Recording, StampedClock, UniformClock, read_native
-from floatref.engine.readers import native_of, reader_of
+from floatref.engine.recordings.readers import native_of, reader_of
 from floatref.mapping.draft.drafting import draft_map
 from floatref_adapters.formats.mdf4 import mdf_writing
 from floatref_adapters.formats.mdf4.mdf_writing import Mf4Recording

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from floatref.engine.plugins import plugins
+from floatref.engine.recordings.plug_in_files import failure
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.interfaces.adapter import (
     Adapter,
@@ -116,8 +117,3 @@ def _recognise(adapter: Adapter, source: Path) -> bool:
     except Exception as error:
         plugins().reports.append(failure(f"adapter {adapter.name}", source, error))
         return False
-
-
-def failure(reader: str, path: Path, error: BaseException) -> str:
-    """Return one line on an ``error`` that ``reader``, an adapter or a format, raised."""
-    return f"{reader}: {path}: {type(error).__name__}: {' '.join(str(error).split())}"

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from floatref.engine.formats import write_file
 from floatref.engine.plugins import plugins
-from floatref.engine.readers import find_readers, is_native
+from floatref.engine.recordings.plug_in_files import write_file
+from floatref.engine.recordings.readers import find_readers, is_native
 from floatref.errors import InputError
 from floatref.files import write_recording
 from floatref.files.sources import name_errors

@@ -1,0 +1,1 @@
+"""Recordings of native files, and of formats that hold recordings."""
