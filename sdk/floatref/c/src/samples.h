@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Samples and settings: what is infinite or missing, and the order in which an array is passed.
+ */
+#ifndef FR_SAMPLES_H
+#define FR_SAMPLES_H
+
+#include "object.h"
+
+#define FR_R(number) ((fr_real)(number))
+#define FR_PI 3.14159265358979323846
+
+/* NaN differs from itself; a difference to itself is NaN for an infinite number too. */
+static inline int fr_missing(fr_real x)
+{
+    return x != x;
+}
+
+static inline int fr_finite(double x)
+{
+    return x - x == 0.0;
+}
+
+static inline int fr_above_zero(double x)
+{
+    return x > 0.0 && fr_finite(x);
+}
+
+static inline int fr_one_of(int32_t value, int32_t first, int32_t last)
+{
+    return value >= first && value <= last;
+}
+
+/* Index of the k-th sample that is passed. */
+static inline size_t fr_index(size_t k, size_t count, int backward)
+{
+    return backward != 0 ? count - 1u - k : k;
+}
+
+/* FR_OK if `x` holds finite samples, and missing ones only where these are bridged. */
+fr_status fr_check_samples(const fr_real *x, size_t count, int32_t missing);
+
+/* The same for time steps: zero or above, never missing. */
+fr_status fr_check_steps(const fr_real *x, size_t count);
+
+#endif

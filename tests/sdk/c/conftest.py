@@ -1,0 +1,167 @@
+"""The C library in double and in float, built once for a session, and its objects as Python's."""
+
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import floatref
+from floatref.kernels import compiling
+
+FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wconversion", "-pedantic")
+COMPILER = os.environ.get("CC", "cc")
+NAMES = {"double": np.float64, "float": np.float32}
+
+
+class Made:
+    """An object of the library, in memory of its own."""
+
+    def __init__(self, library, kind, memory):
+        self.library, self.kind, self.memory = library, kind, memory
+
+    @property
+    def pointer(self):
+        address = self.library.ffi.cast("void *", self.memory.ctypes.data)
+        return self.library.ffi.cast(f"fr_{self.kind} *", address)
+
+    def copy(self):
+        """Return an object in a copy of the memory, at another address."""
+        return Made(self.library, self.kind, self.memory.copy())
+
+    def call(self, name, *arguments):
+        return getattr(self.library.lib, f"fr_{self.kind}_{name}")(self.pointer, *arguments)
+
+    def push(self, *signals, call="push", outputs=1, capacity=None):
+        """Return the status and the outputs, cut to what was written; NaN where nothing was."""
+        arrays = [self.library.array(x) for x in signals]
+        count = len(arrays[0]) if arrays else 0
+        capacity = count if capacity is None else capacity
+        made = [np.full(capacity, np.nan, self.library.dtype) for _ in range(outputs)]
+        written = self.library.ffi.new("size_t *", 12345)
+        inputs = [self.library.at(x) for x in arrays]
+        results = [self.library.at(y) for y in made]
+        status = self.call(call, *inputs, count, *results, capacity, written)
+        self.written = written[0]
+        return status, *(y[: self.written] if status == 0 else y for y in made)
+
+
+class Library:
+    """The shared library of one precision."""
+
+    def __init__(self, precision, program):
+        cffi = pytest.importorskip("cffi")
+        self.ffi, self.dtype = cffi.FFI(), NAMES[precision]
+        text = (floatref.c_sources() / "floatref.h").read_text(encoding="utf-8")
+        plain = re.sub(r"^#include .*$", "", text, flags=re.M)
+        macro = ["-DFR_FLOAT"] if precision == "float" else []
+        command = [COMPILER, "-E", "-P", "-DFR_API=", *macro, "-"]
+        found = subprocess.run(command, input=plain, capture_output=True, text=True, check=True)
+        self.ffi.cdef(found.stdout)
+        self.lib = self.ffi.dlopen(str(program))
+        self.status = {
+            getattr(self.lib, name): name for name in dir(self.lib) if name.startswith("FR_")
+        }
+
+    def array(self, x):
+        x = np.asarray(x)
+        kind = np.int64 if x.dtype.kind in "iu" else self.dtype
+        return np.ascontiguousarray(x, kind)
+
+    def at(self, x):
+        kind = "int64_t *" if x.dtype == np.int64 else "fr_real *"
+        return self.ffi.cast(kind, x.ctypes.data)
+
+    def config(self, kind, **settings):
+        config = self.ffi.new(f"fr_{kind}_config *")
+        config[0] = getattr(self.lib, f"fr_{kind}_defaults")()
+        for name, value in settings.items():
+            inner, _, field = name.rpartition("__")
+            setattr(getattr(config, inner) if inner else config, field, value)
+        return config
+
+    def memory(self, kind, config):
+        size = getattr(self.lib, f"fr_{kind}_size")(config)
+        return np.zeros(size // 8 + 1, np.uint64)
+
+    def make(self, kind, **settings):
+        """Return an object of ``kind`` at its defaults, but for ``settings``."""
+        config = self.config(kind, **settings)
+        memory, out = self.memory(kind, config), self.ffi.new(f"fr_{kind} **")
+        address = self.ffi.cast("void *", memory.ctypes.data)
+        status = getattr(self.lib, f"fr_{kind}_init")(address, memory.nbytes, config, out)
+        assert status == 0, self.text(status)
+        return Made(self, kind, memory)
+
+    def text(self, status):
+        return self.ffi.string(self.lib.fr_status_text(status)).decode()
+
+    def array_call(self, name, config, *signals, outputs=1):
+        """Return the status and the outputs of a call that has no object."""
+        arrays = [self.array(x) for x in signals]
+        made = np.full(len(arrays[0]), np.nan, self.dtype)
+        written = self.ffi.new("size_t *")
+        inputs = [self.at(x) for x in arrays]
+        call = getattr(self.lib, name)
+        status = call(config, *inputs, made.size, self.at(made), made.size, written)
+        return status, made
+
+
+@pytest.fixture(scope="session")
+def compiler():
+    """Return the C compiler; without one the tests are left out, but not where CI runs them."""
+    if shutil.which(COMPILER) is None:
+        assert os.environ.get("CI") != "true", "the README asks for a C compiler"
+        pytest.skip(f"no C compiler: {COMPILER} is not found")
+    return COMPILER
+
+
+@pytest.fixture(scope="session")
+def build(compiler, tmp_path_factory):
+    """Return a function that builds the library in one precision, once."""
+    made = {}
+
+    def library(precision):
+        if precision not in made:
+            program = tmp_path_factory.mktemp(precision) / "libfloatref.so"
+            folder = floatref.c_sources()
+            macro = ["-DFR_FLOAT"] if precision == "float" else []
+            sources = sorted(str(source) for source in (folder / "src").glob("*.c"))
+            command = [compiler, *FLAGS, *macro, "-fPIC", "-shared", f"-I{folder}", "-o", program]
+            found = subprocess.run([*command, *sources, "-lm"], capture_output=True, text=True)
+            assert (found.returncode, found.stderr) == (0, ""), found.stderr
+            made[precision] = Library(precision, program)
+        return made[precision]
+
+    return library
+
+
+@pytest.fixture(scope="session")
+def double(build):
+    return build("double")
+
+
+@pytest.fixture(scope="session")
+def single(build):
+    return build("float")
+
+
+@pytest.fixture(scope="session")
+def plain():
+    """Return a function that loads a module of kernels as Python runs it, without numba.
+
+    Its products and sums are not fused, as in a C library that is built so.
+    """
+
+    def load(name):
+        with pytest.MonkeyPatch.context() as patched:
+            patched.setattr(compiling, "compiled", lambda function: function)
+            spec = importlib.util.find_spec(f"floatref.{name}")
+            module = importlib.util.module_from_spec(spec)
+            spec.loader.exec_module(module)
+        return module
+
+    return load
