@@ -185,6 +185,177 @@ FR_API fr_status fr_integral_push_reflecting(fr_integral *integral, const fr_rea
                                              const fr_real *time_step, size_t count, fr_real *y,
                                              size_t capacity, size_t *written);
 
+/* ---------------------------------------------------------------------------------------------
+ * The cut-off that follows the travel speed (5.3): a frequency at low speed, a wavelength at high
+ * speed. No object: each sample is alone. A missing speed gives a missing cut-off.
+ */
+typedef struct fr_cut_off_config {
+    double low_speed_hz;         /* f_ls; 0.45 */
+    double wavelength_m;         /* lambda_c; 105.91 */
+    double transition_speed_mps; /* v_0; 2.778 */
+    double steepness_s_per_m;    /* alpha; 2.5 */
+} fr_cut_off_config;
+
+FR_API fr_cut_off_config fr_cut_off_defaults(void);
+/* f_c in Hz of a speed in m/s. */
+FR_API fr_status fr_cut_off_frequency(const fr_cut_off_config *config, const fr_real *speed,
+                                      size_t count, fr_real *frequency, size_t capacity,
+                                      size_t *written);
+/* f_c / v in cycles/m, at most one cycle in four intervals, as at a standstill. */
+FR_API fr_status fr_cut_off_wave_number(const fr_cut_off_config *config, double interval_m,
+                                        const fr_real *speed, size_t count, fr_real *wave_number,
+                                        size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * Travel speed in m/s: the encoder's progress over the preceding window (5.6, 5.7). Before the
+ * first sample the vehicle is taken to be stationary. Memory: 8 bytes per sample of the window.
+ */
+enum { FR_BACK_REFUSED = 0, FR_BACK_TAKEN = 1 };
+/* What happens to counts that go back. Refused: FR_GOES_BACK, as for a chunk that is given twice.
+ * Taken: the speed is below zero, and no point is found again, as in the pipelines of the SDK. */
+
+typedef struct fr_travel_speed_config {
+    double rate_hz;          /* samples per second; no default */
+    double metres_per_count; /* of the encoder; no default */
+    double window_s;         /* at most 60; 0.05 */
+    int32_t back;            /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
+} fr_travel_speed_config;
+
+typedef struct fr_travel_speed fr_travel_speed;
+
+FR_API fr_travel_speed_config fr_travel_speed_defaults(void);
+FR_API size_t fr_travel_speed_size(const fr_travel_speed_config *config);
+FR_API fr_status fr_travel_speed_init(void *memory, size_t size, const fr_travel_speed_config *config,
+                                      fr_travel_speed **out);
+/* `counts` are within 2^50 of zero. */
+FR_API fr_status fr_travel_speed_push(fr_travel_speed *travel, const int64_t *counts, size_t count,
+                                      fr_real *speed, size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * Projection from time to distance (5.3): a sample for every interval of encoder distance. Point k
+ * lies k intervals behind the first count and takes the first sample that has reached it, so a stop
+ * gives no points; between samples more than an interval apart it is linear in distance.
+ */
+typedef struct fr_projection_config {
+    double interval_m;       /* between points; no default */
+    double metres_per_count; /* of the encoder; no default */
+} fr_projection_config;
+
+typedef struct fr_projection fr_projection;
+
+FR_API fr_projection_config fr_projection_defaults(void);
+FR_API size_t fr_projection_size(const fr_projection_config *config);
+FR_API fr_status fr_projection_init(void *memory, size_t size, const fr_projection_config *config,
+                                    fr_projection **out);
+/* The number of points written differs from that of samples; FR_OUTPUT_FULL says how many. */
+FR_API fr_status fr_projection_push(fr_projection *projection, const int64_t *counts,
+                                    const fr_real *x, size_t count, fr_real *y, size_t capacity,
+                                    size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * The recommended temporal algorithm (5.7) whole, for one wheel path: conditioning, both
+ * integrations with the high-pass at the cut-off of the speed (5.3) before each, the same on the
+ * height, the difference, projection to distance; at the end the backward pass over the points.
+ */
+typedef struct fr_adaptive_config {
+    fr_travel_speed_config travel;   /* rate, encoder and window; no default of the first two */
+    fr_cut_off_config cut_off; /* (5.3) */
+    double interval_m;         /* between points of the profile; no default */
+    double gravity_mps2;       /* taken from every acceleration: 9.80665 for a specific force; 0 */
+    int32_t missing;           /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED */
+    int32_t tangent;           /* FR_TANGENT_EXACT or FR_TANGENT_SHORT; FR_TANGENT_EXACT */
+    int32_t cut_off_every;     /* samples between updates of the cut-off, 1 to 65536; 1, exact.
+                                  The error grows with the time between updates: where it is 4 ms,
+                                  it is 0.02 m/km of IRI while the speed rises by 3 m/s^2. */
+} fr_adaptive_config;
+
+typedef struct fr_adaptive fr_adaptive;
+
+FR_API fr_adaptive_config fr_adaptive_defaults(void);
+FR_API size_t fr_adaptive_size(const fr_adaptive_config *config);
+FR_API fr_status fr_adaptive_init(void *memory, size_t size, const fr_adaptive_config *config,
+                                  fr_adaptive **out);
+/* `acceleration` in m/s^2 and `height` in m, down to the road, of `count` samples; elevation in m
+ * and speed in m/s of every point that they reach. Keep both for the end of the run. */
+FR_API fr_status fr_adaptive_push(fr_adaptive *adaptive, const fr_real *acceleration,
+                                  const fr_real *height, const int64_t *counts, size_t count,
+                                  fr_real *elevation, fr_real *speed, size_t capacity,
+                                  size_t *written);
+/* End the run: the backward pass over distance of all points so far. FR_INCOMPLETE_SET unless
+ * `count` is their number. `profile` may be `elevation`. */
+FR_API fr_status fr_adaptive_finish(fr_adaptive *adaptive, const fr_real *elevation,
+                                    const fr_real *speed, size_t count, fr_real *profile,
+                                    size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * The high-pass sets alone, for an engine with integrals of its own. The same filter on both sides
+ * of the difference cancels the vehicle's motion, so a run ends only if all three signals have
+ * passed with equally many samples; otherwise FR_INCOMPLETE_SET. At a fixed cut-off, in time (5.5)
+ * or over distance (5.9): HPF_B3S1 of the acceleration, HPF_B3S2 of the velocity, HPF_B3 of the
+ * height from its first sample; at the end HPF_B3S2R and HPF_B3S1R of the elevation.
+ */
+typedef struct fr_high_pass_set_config {
+    double step;     /* between samples, in s or in m; no default */
+    double cutoff;   /* of each third-order pass, in Hz or in cycles/m; no default */
+    int32_t missing; /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED */
+} fr_high_pass_set_config;
+
+typedef struct fr_high_pass_set fr_high_pass_set;
+
+FR_API fr_high_pass_set_config fr_high_pass_set_defaults(void);
+FR_API size_t fr_high_pass_set_size(const fr_high_pass_set_config *config);
+FR_API fr_status fr_high_pass_set_init(void *memory, size_t size,
+                                       const fr_high_pass_set_config *config,
+                                       fr_high_pass_set **out);
+FR_API fr_status fr_high_pass_set_acceleration(fr_high_pass_set *set, const fr_real *x,
+                                               size_t count, fr_real *y, size_t capacity,
+                                               size_t *written);
+FR_API fr_status fr_high_pass_set_velocity(fr_high_pass_set *set, const fr_real *x, size_t count,
+                                           fr_real *y, size_t capacity, size_t *written);
+FR_API fr_status fr_high_pass_set_height(fr_high_pass_set *set, const fr_real *x, size_t count,
+                                         fr_real *y, size_t capacity, size_t *written);
+/* End the run with the backward pass over all samples of the elevation, or without one. */
+FR_API fr_status fr_high_pass_set_reverse(fr_high_pass_set *set, const fr_real *elevation,
+                                          size_t count, fr_real *profile, size_t capacity,
+                                          size_t *written);
+FR_API fr_status fr_high_pass_set_finish(fr_high_pass_set *set);
+
+/* The same at the cut-off of the travel speed (5.7), which is given with every signal and has to be
+ * the same for all: FR_OTHER_SPEED. */
+typedef struct fr_adaptive_set_config {
+    double rate_hz;            /* samples per second; no default */
+    fr_cut_off_config cut_off; /* (5.3) */
+    int32_t missing;           /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED */
+    int32_t tangent;           /* FR_TANGENT_EXACT or FR_TANGENT_SHORT; FR_TANGENT_EXACT */
+} fr_adaptive_set_config;
+
+typedef struct fr_adaptive_set fr_adaptive_set;
+
+FR_API fr_adaptive_set_config fr_adaptive_set_defaults(void);
+FR_API size_t fr_adaptive_set_size(const fr_adaptive_set_config *config);
+FR_API fr_status fr_adaptive_set_init(void *memory, size_t size,
+                                      const fr_adaptive_set_config *config, fr_adaptive_set **out);
+FR_API fr_status fr_adaptive_set_acceleration(fr_adaptive_set *set, const fr_real *x,
+                                              const fr_real *speed, size_t count, fr_real *y,
+                                              size_t capacity, size_t *written);
+FR_API fr_status fr_adaptive_set_velocity(fr_adaptive_set *set, const fr_real *x,
+                                          const fr_real *speed, size_t count, fr_real *y,
+                                          size_t capacity, size_t *written);
+FR_API fr_status fr_adaptive_set_height(fr_adaptive_set *set, const fr_real *x,
+                                        const fr_real *speed, size_t count, fr_real *y,
+                                        size_t capacity, size_t *written);
+/* End the run with the backward pass in time over all samples, with that over distance of points
+ * `interval_m` apart at the speed stored with each, or without one. */
+FR_API fr_status fr_adaptive_set_reverse(fr_adaptive_set *set, const fr_real *elevation,
+                                         const fr_real *speed, size_t count, fr_real *profile,
+                                         size_t capacity, size_t *written);
+FR_API fr_status fr_adaptive_set_reverse_over_distance(fr_adaptive_set *set, double interval_m,
+                                                       const fr_real *elevation,
+                                                       const fr_real *speed, size_t count,
+                                                       fr_real *profile, size_t capacity,
+                                                       size_t *written);
+FR_API fr_status fr_adaptive_set_finish(fr_adaptive_set *set);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,19 +1,33 @@
 """The C library in double and in float, built once for a session, and its objects as Python's."""
 
+import importlib
 import importlib.util
 import os
 import re
 import shutil
 import subprocess
+from functools import cache
 
 import numpy as np
 import pytest
 
 import floatref
+from floatref import kernels
 from floatref.kernels import compiling
+from floatref.stages.filters import varying
+from floatref.values.arrays import new_record
 
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wconversion", "-pedantic")
 COMPILER = os.environ.get("CC", "cc")
+KERNELS = (
+    "local_suppression",
+    "matched_high_pass",
+    "motion",
+    "schedule",
+    "state_variable",
+    "varying",
+    "varying_states",
+)
 NAMES = {"double": np.float64, "float": np.float32}
 
 
@@ -156,6 +170,7 @@ def plain():
     Its products and sums are not fused, as in a C library that is built so.
     """
 
+    @cache
     def load(name):
         with pytest.MonkeyPatch.context() as patched:
             patched.setattr(compiling, "compiled", lambda function: function)
@@ -165,3 +180,14 @@ def plain():
         return module
 
     return load
+
+
+@pytest.fixture
+def plain_sdk(plain, monkeypatch):
+    """Let the stages of the SDK run their kernels without numba."""
+    for name in KERNELS:
+        importlib.import_module(f"floatref.kernels.{name}")
+        monkeypatch.setattr(kernels, name, plain(f"kernels.{name}"))
+    # Python reads fields of a record by name, but not those of an element of an array.
+    monkeypatch.setattr(varying, "new_records", lambda n, of: [new_record(of) for _ in range(n)])
+    return kernels

@@ -83,7 +83,9 @@ def test_a_varying_section_has_the_bits_of_the_kernel(
 @given(
     seed=SEEDS, order=st.sampled_from([1, 2]), direction=st.sampled_from([1, 2]), gaps=st.booleans()
 )
-def test_a_section_of_states_has_the_bits_of_the_kernel(double, plain, seed, order, direction, gaps):
+def test_a_section_of_states_has_the_bits_of_the_kernel(
+    double, plain, seed, order, direction, gaps
+):
     x, cutoff = samples(seed, gaps)
     chosen = {"sections": order, "form": 1, "direction": direction, "missing": int(gaps)}
     _, found = double.make("varying", step=1.0, **chosen).push(x, cutoff)
@@ -95,7 +97,9 @@ def test_a_section_of_states_has_the_bits_of_the_kernel(double, plain, seed, ord
 
 
 @laws
-@given(seed=SEEDS, form=st.sampled_from(["push", "push_steps", "push_reflecting"]), gaps=st.booleans())
+@given(
+    seed=SEEDS, form=st.sampled_from(["push", "push_steps", "push_reflecting"]), gaps=st.booleans()
+)
 def test_an_integral_has_the_bits_of_the_kernel(double, plain, seed, form, gaps):
     x, _ = samples(seed, gaps)
     h, _ = samples(seed + 1, gaps)
@@ -120,10 +124,12 @@ def test_an_integral_has_the_bits_of_the_kernel(double, plain, seed, form, gaps)
 def test_the_short_tangent_is_within_its_stated_error(double):
     # A first-order section that starts at x gives x (1 - c) / (1 + c) at its first sample.
     cutoff = np.linspace(1e-4, 0.1 / np.pi, 999)
-    found = np.array([
-        double.make("varying", step=1.0, sections=1, tangent=1).push([1.0], [f])[1][0]
-        for f in cutoff
-    ])
+    found = np.array(
+        [
+            double.make("varying", step=1.0, sections=1, tangent=1).push([1.0], [f])[1][0]
+            for f in cutoff
+        ]
+    )
     c = (1.0 - found) / (1.0 + found)
     assert np.abs(c / np.tan(np.pi * cutoff) - 1.0).max() < 6e-8
     assert np.abs(c / np.tan(np.pi * cutoff) - 1.0).max() > 4e-8

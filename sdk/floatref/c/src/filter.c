@@ -14,19 +14,9 @@
  */
 #include <math.h>
 
-#include "samples.h"
+#include "filter.h"
 
 #define FILTER_MAGIC FR_MAGIC(1)
-
-struct fr_filter {
-    fr_head head;
-    int32_t kind; /* twice the order, and 1 for a low-pass */
-    int32_t backward;
-    int32_t missing;
-    int32_t started;
-    fr_real c, gain, p, k1, k2, k3, first, band, low; /* coefficients; the last three at a start */
-    fr_real held, s1, s2;
-};
 
 enum { HIGH_1 = 2, LOW_1 = 3, HIGH_2 = 4, LOW_2 = 5 };
 
@@ -92,23 +82,27 @@ static void set_second_order(fr_filter *filter, double c)
     filter->low = FR_R(c * c - 2.0 * c);
 }
 
-fr_status fr_filter_init(void *memory, size_t size, const fr_filter_config *config, fr_filter **out)
+void fr_filter_set(fr_filter *filter, const fr_filter_config *config)
 {
-    fr_filter *filter = (fr_filter *)memory;
-    fr_status status = fr_place(memory, size, config, (const void *)out, fr_filter_size(config),
-                                FILTER_MAGIC);
-    if (status != FR_OK)
-        return status;
+    double c = tan(FR_PI * config->cutoff * config->step);
     filter->kind = 2 * config->order + (config->passes == FR_LOW_PASS ? 1 : 0);
     filter->backward = config->direction == FR_BACKWARD ? 1 : 0;
     filter->missing = config->missing;
-    double c = tan(FR_PI * config->cutoff * config->step);
     filter->c = FR_R(c);
     if (config->order == 1)
         set_first_order(filter, c);
     else
         set_second_order(filter, c);
-    *out = filter;
+}
+
+fr_status fr_filter_init(void *memory, size_t size, const fr_filter_config *config, fr_filter **out)
+{
+    fr_status status = fr_place(memory, size, config, (const void *)out, fr_filter_size(config),
+                                FILTER_MAGIC);
+    if (status != FR_OK)
+        return status;
+    *out = (fr_filter *)memory;
+    fr_filter_set(*out, config);
     return FR_OK;
 }
 
@@ -182,10 +176,18 @@ static void run_second_order(fr_filter *filter, const fr_real *x, size_t done, s
     filter->held = held;
 }
 
+void fr_filter_run(fr_filter *filter, const fr_real *x, size_t count, fr_real *y)
+{
+    size_t done = filter->started == 0 ? begin_filter(filter, x, count, y) : 0u;
+    if (filter->kind == HIGH_1 || filter->kind == LOW_1)
+        run_first_order(filter, x, done, count, y);
+    else
+        run_second_order(filter, x, done, count, y);
+}
+
 fr_status fr_filter_push(fr_filter *filter, const fr_real *x, size_t count, fr_real *y,
                          size_t capacity, size_t *written)
 {
-    size_t done = 0;
     fr_status status = fr_ready(filter, FILTER_MAGIC);
     if (status == FR_OK)
         status = fr_room(count, y, capacity, written);
@@ -193,12 +195,7 @@ fr_status fr_filter_push(fr_filter *filter, const fr_real *x, size_t count, fr_r
         status = fr_check_samples(x, count, filter->missing);
     if (status != FR_OK)
         return status;
-    if (filter->started == 0)
-        done = begin_filter(filter, x, count, y);
-    if (filter->kind == HIGH_1 || filter->kind == LOW_1)
-        run_first_order(filter, x, done, count, y);
-    else
-        run_second_order(filter, x, done, count, y);
+    fr_filter_run(filter, x, count, y);
     *written = count;
     return FR_OK;
 }

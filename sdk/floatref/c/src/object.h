@@ -24,6 +24,9 @@ typedef struct fr_head {
 /* Bytes of a struct, so that an array of int64_t or fr_real behind it is aligned. */
 #define FR_PADDED(type) ((sizeof(type) + (FR_ALIGNMENT - 1u)) / FR_ALIGNMENT * FR_ALIGNMENT)
 
+/* Where that array starts. */
+#define FR_BEHIND(object, type) ((void *)((unsigned char *)(object) + FR_PADDED(type)))
+
 /* Whether an object that needs `needed` bytes, 0 for a bad configuration, can be placed; if so its
  * memory is cleared and the head is written. */
 fr_status fr_place(void *memory, size_t size, const void *config, const void *out, size_t needed,

@@ -27,4 +27,25 @@ void fr_tangents(const fr_tangent *tangent, const fr_real *cutoff, size_t count,
 fr_status fr_check_cutoffs(const fr_tangent *tangent, const fr_real *cutoff, size_t count,
                            int32_t missing);
 
+/* (5.3) in fr_real: f_ls, 1 / lambda_c, v_0 and alpha. */
+typedef struct fr_schedule {
+    fr_real low_speed, per_metre, transition, steepness;
+} fr_schedule;
+
+int fr_cut_off_is_possible(const fr_cut_off_config *config);
+fr_schedule fr_schedule_of(const fr_cut_off_config *config);
+
+/* Largest cut-off over distance, in cycles/m, of points at an interval. */
+fr_real fr_largest_wave_number(double interval_m);
+
+void fr_frequencies(const fr_schedule *schedule, const fr_real *speed, size_t count,
+                    fr_real *frequency);
+
+/* Turn frequencies in Hz into cycles/m, at most `largest`, in place. */
+void fr_wave_numbers(const fr_real *speed, fr_real largest, size_t count, fr_real *values);
+
+/* FR_OK if the cut-offs of all speeds are within 0 to half the rate of `tangent`. */
+fr_status fr_check_speeds(const fr_schedule *schedule, const fr_tangent *tangent,
+                          const fr_real *speed, size_t count, int32_t missing);
+
 #endif
