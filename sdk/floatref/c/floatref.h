@@ -239,6 +239,7 @@ FR_API fr_status fr_travel_speed_push(fr_travel_speed *travel, const int64_t *co
 typedef struct fr_projection_config {
     double interval_m;       /* between points; no default */
     double metres_per_count; /* of the encoder; no default */
+    double rate_hz;          /* samples per second, for time steps; 0, without them */
 } fr_projection_config;
 
 typedef struct fr_projection fr_projection;
@@ -251,6 +252,26 @@ FR_API fr_status fr_projection_init(void *memory, size_t size, const fr_projecti
 FR_API fr_status fr_projection_push(fr_projection *projection, const int64_t *counts,
                                     const fr_real *x, size_t count, fr_real *y, size_t capacity,
                                     size_t *written);
+/* The same, and the time in s from the point before to each, 0 for the first (5.4): a difference
+ * of sample numbers, so it is exact at any time. FR_BAD_CONFIG without a rate. */
+FR_API fr_status fr_projection_push_timed(fr_projection *projection, const int64_t *counts,
+                                          const fr_real *x, size_t count, fr_real *y,
+                                          fr_real *time_step, size_t capacity, size_t *written);
+
+/* The time from the trigger before in s (5.4), where the encoder triggers and a timer counts. */
+typedef struct fr_time_step_config {
+    double seconds_per_tick; /* of the timer; no default */
+} fr_time_step_config;
+
+typedef struct fr_time_step fr_time_step;
+
+FR_API fr_time_step_config fr_time_step_defaults(void);
+FR_API size_t fr_time_step_size(const fr_time_step_config *config);
+FR_API fr_status fr_time_step_init(void *memory, size_t size, const fr_time_step_config *config,
+                                   fr_time_step **out);
+/* `ticks` are within 2^50 of zero and do not go back. The first trigger has a step of 0. */
+FR_API fr_status fr_time_step_push(fr_time_step *timer, const int64_t *ticks, size_t count,
+                                   fr_real *time_step, size_t capacity, size_t *written);
 
 /* ---------------------------------------------------------------------------------------------
  * The recommended temporal algorithm (5.7) whole, for one wheel path: conditioning, both
@@ -355,6 +376,96 @@ FR_API fr_status fr_adaptive_set_reverse_over_distance(fr_adaptive_set *set, dou
                                                        fr_real *profile, size_t capacity,
                                                        size_t *written);
 FR_API fr_status fr_adaptive_set_finish(fr_adaptive_set *set);
+
+/* ---------------------------------------------------------------------------------------------
+ * Local suppression (5.6): a PI controller that holds the vertical velocity at zero below a speed.
+ */
+typedef struct fr_local_suppression_config {
+    double rate_hz;        /* samples per second; no default */
+    double below_mps;      /* it acts below this speed; 4.4704 */
+    double proportional;   /* K_P; 0.001 */
+    double integral_per_s; /* K_I; 0.834 */
+    int32_t missing;       /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED */
+} fr_local_suppression_config;
+
+typedef struct fr_local_suppression fr_local_suppression;
+
+FR_API fr_local_suppression_config fr_local_suppression_defaults(void);
+FR_API size_t fr_local_suppression_size(const fr_local_suppression_config *config);
+FR_API fr_status fr_local_suppression_init(void *memory, size_t size,
+                                           const fr_local_suppression_config *config,
+                                           fr_local_suppression **out);
+FR_API fr_status fr_local_suppression_push(fr_local_suppression *control, const fr_real *velocity,
+                                           const fr_real *speed, size_t count, fr_real *y,
+                                           size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * Timer distortion (5.7, 5.8): a limit on the time step of an integration over distance. No object.
+ * The height is reflected (5.9) by fr_integral_push_reflecting().
+ */
+typedef struct fr_timer_distortion_config {
+    double interval_m;     /* between points; no default */
+    double slow_speed_mps; /* the longest step is that of this speed; 3.576 */
+    double sharpness;      /* beta, at least 2; 25 */
+} fr_timer_distortion_config;
+
+FR_API fr_timer_distortion_config fr_timer_distortion_defaults(void);
+/* Adjusted time steps in s of measured ones; these may be 0 and of any length. */
+FR_API fr_status fr_timer_distortion_steps(const fr_timer_distortion_config *config,
+                                           const fr_real *time_step, size_t count,
+                                           fr_real *adjusted, size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * The matched high-pass: an observer in place of both integrations. Its floating reference height
+ * follows the height below the cut-off; minus the height it is the filtered profile.
+ */
+typedef struct fr_matched_high_pass_config {
+    double rate_hz;  /* samples per second; no default */
+    int32_t missing; /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED */
+    int32_t tangent; /* FR_TANGENT_EXACT or FR_TANGENT_SHORT; FR_TANGENT_EXACT */
+} fr_matched_high_pass_config;
+
+typedef struct fr_matched_high_pass fr_matched_high_pass;
+
+FR_API fr_matched_high_pass_config fr_matched_high_pass_defaults(void);
+FR_API size_t fr_matched_high_pass_size(const fr_matched_high_pass_config *config);
+FR_API fr_status fr_matched_high_pass_init(void *memory, size_t size,
+                                           const fr_matched_high_pass_config *config,
+                                           fr_matched_high_pass **out);
+/* Acceleration in m/s^2 with 1 g removed, height in m, and the cut-off in Hz of every sample, as
+ * fr_cut_off_frequency() gives it. */
+FR_API fr_status fr_matched_high_pass_push(fr_matched_high_pass *matched,
+                                           const fr_real *acceleration, const fr_real *height,
+                                           const fr_real *cutoff, size_t count,
+                                           fr_real *reference_height, size_t capacity,
+                                           size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * The International Roughness Index, running over distance (2.1.1). The car starts at the mean
+ * slope of the start length, so the first output comes behind that length; the others come one
+ * moving average behind their point. Memory: 8 bytes or less per point of the longer of both.
+ */
+typedef struct fr_iri_config {
+    double interval_m;       /* between points, at most 2; no default */
+    double moving_average_m; /* base length of the tyre envelope, 0 for no envelope; 0.25 */
+    double start_length_m;   /* the car starts at the mean slope of this length; 11 */
+    double speed_kmh;        /* simulated speed; 80 */
+} fr_iri_config;
+
+typedef struct fr_iri fr_iri;
+
+FR_API fr_iri_config fr_iri_defaults(void);
+FR_API size_t fr_iri_size(const fr_iri_config *config);
+FR_API fr_status fr_iri_init(void *memory, size_t size, const fr_iri_config *config, fr_iri **out);
+/* The signed output in m/km at the end of every interval that is ready, from points that are all
+ * there: bridge missing ones before. FR_OUTPUT_FULL says how many intervals are ready. */
+FR_API fr_status fr_iri_push(fr_iri *iri, const fr_real *elevation, size_t count, fr_real *trace,
+                             size_t capacity, size_t *written);
+/* End the profile: the output of the intervals that are left. FR_WRONG_ORDER if it is not longer
+ * than the start length. */
+FR_API fr_status fr_iri_finish(fr_iri *iri, fr_real *trace, size_t capacity, size_t *written);
+/* The IRI in m/km of all output so far, after the end too; FR_WRONG_ORDER before the first. */
+FR_API fr_status fr_iri_value(const fr_iri *iri, fr_real *m_per_km);
 
 #ifdef __cplusplus
 }

@@ -13,11 +13,13 @@ import pytest
 
 import floatref
 from floatref import kernels
+from floatref.c import amalgamation
 from floatref.kernels import compiling
 from floatref.stages.filters import varying
 from floatref.values.arrays import new_record
 
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wconversion", "-pedantic")
+FLAGS += tuple(os.environ.get("FLOATREF_C_FLAGS", "").split())
 COMPILER = os.environ.get("CC", "cc")
 KERNELS = (
     "local_suppression",
@@ -76,9 +78,8 @@ class Library:
         found = subprocess.run(command, input=plain, capture_output=True, text=True, check=True)
         self.ffi.cdef(found.stdout)
         self.lib = self.ffi.dlopen(str(program))
-        self.status = {
-            getattr(self.lib, name): name for name in dir(self.lib) if name.startswith("FR_")
-        }
+        listed = text[text.index("    FR_OK = 0") :].partition("};")[0]
+        self.status = {int(n): name for name, n in re.findall(r"(FR_\w+) = (\d+)", listed)}
 
     def array(self, x):
         x = np.asarray(x)
@@ -140,12 +141,13 @@ def build(compiler, tmp_path_factory):
 
     def library(precision):
         if precision not in made:
-            program = tmp_path_factory.mktemp(precision) / "libfloatref.so"
-            folder = floatref.c_sources()
+            folder = tmp_path_factory.mktemp(precision)
+            assert amalgamation.main([str(folder)]) == 0
+            program = folder / "libfloatref.so"
             macro = ["-DFR_FLOAT"] if precision == "float" else []
-            sources = sorted(str(source) for source in (folder / "src").glob("*.c"))
-            command = [compiler, *FLAGS, *macro, "-fPIC", "-shared", f"-I{folder}", "-o", program]
-            found = subprocess.run([*command, *sources, "-lm"], capture_output=True, text=True)
+            command = [compiler, *FLAGS, *macro, "-fPIC", "-shared", "-o", program]
+            source = [folder / "floatref.c", "-lm"]
+            found = subprocess.run([*command, *source], capture_output=True, text=True)
             assert (found.returncode, found.stderr) == (0, ""), found.stderr
             made[precision] = Library(precision, program)
         return made[precision]

@@ -1,7 +1,6 @@
 """Filters and integration in C: the numbers of the SDK's kernels, bit for bit in double."""
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -1,7 +1,8 @@
 """The high-pass sets and the whole algorithm of 5.7 in C: the bits of the SDK's objects."""
 
+from itertools import pairwise
+
 import numpy as np
-import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -124,7 +125,7 @@ def through_c(made, drive, cuts=()):
     edges = [0, *sorted(cuts), drive.a.size]
     found = [
         made.push(drive.a[i:j], drive.h[i:j], drive.counts[i:j], outputs=2, capacity=9999)
-        for i, j in zip(edges, edges[1:], strict=False)
+        for i, j in pairwise(edges)
     ]
     assert {status for status, *_ in found} == {0}
     return [np.concatenate(parts) for parts in list(zip(*found, strict=True))[1:]]

@@ -8,9 +8,6 @@
  *     S1:  hp = (x - s) / (1 + c),  lp = x - hp,  s += 2 c hp
  *     S2:  hp = (x - s2 - (1 + c) s1) / (1 + c + c^2),  bp = s1 + c hp,  lp = s2 + c bp,
  *          s1 += 2 c hp,  s2 += 2 c bp
- *
- * The states are advanced by small products of themselves, the newest last, because the loop waits
- * for nothing else.
  */
 #include <math.h>
 
@@ -140,6 +137,17 @@ static size_t begin_filter(fr_filter *filter, const fr_real *x, size_t count, fr
     return k;
 }
 
+/* A state less a small part of itself and with a small input. The newest input enters last, since
+ * the loop waits for nothing else, as in the SDK; in single precision the state is rounded once. */
+static inline fr_real advance(fr_real state, fr_real part, fr_real input)
+{
+#ifdef FR_FLOAT
+    return state + (input - part);
+#else
+    return (state - part) + input;
+#endif
+}
+
 static void run_first_order(fr_filter *filter, const fr_real *x, size_t done, size_t count,
                             fr_real *y)
 {
@@ -150,7 +158,7 @@ static void run_first_order(fr_filter *filter, const fr_real *x, size_t done, si
         fr_real value = fr_missing(x[i]) ? held : x[i];
         held = value;
         y[i] = high ? (value - s) * gain : s + gain * (value - s);
-        s = (s - k1 * s) + k1 * value;
+        s = advance(s, k1 * s, k1 * value);
     }
     filter->s1 = s;
     filter->held = held;
@@ -167,8 +175,8 @@ static void run_second_order(fr_filter *filter, const fr_real *x, size_t done, s
         fr_real value = fr_missing(x[i]) ? held : x[i], next;
         held = value;
         y[i] = high ? ((value - s2) - p * s1) * gain : s2 + gain * (s1 + c * (value - s2));
-        next = (s1 - k2 * s1) + (k1 * value - k1 * s2);
-        s2 = (s2 - k3 * s2) + (k1 * s1 + k3 * value);
+        next = advance(s1, k2 * s1, k1 * value - k1 * s2);
+        s2 = advance(s2, k3 * s2, k1 * s1 + k3 * value);
         s1 = next;
     }
     filter->s1 = s1;

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The International Roughness Index, steps 1 to 4 of 2.1.1, as the points come.
+ *
+ * Slopes are differences of elevation over the moving average, fewer points at the end, less the
+ * mean slope of the start length: at that slope the car is at rest, so it starts with zero states.
+ */
+#include <math.h>
+
+#include "quarter_car.h"
+
+#define IRI_MAGIC FR_MAGIC(11)
+#define LONGEST_INTERVAL_M 2.0
+#define MOST_KEPT 16777216.0
+
+struct fr_iri {
+    fr_head head;
+    uint32_t window, start, room; /* intervals of the moving average and of the start; points kept */
+    uint64_t points, outputs;
+    double total;
+    fr_real per_window, per_step, per_start, start_slope;
+    fr_mode modes[2];
+};
+
+fr_iri_config fr_iri_defaults(void)
+{
+    fr_iri_config config = {0.0, 0.25, 11.0, 80.0};
+    return config;
+}
+
+/* The whole intervals next to a length, ties to even, at least 1; 0 if they are too many. */
+static uint32_t intervals_in(double length_m, double interval_m)
+{
+    double count = rint(length_m / interval_m);
+    if (!(count < MOST_KEPT))
+        return 0u;
+    return count < 1.0 ? 1u : (uint32_t)count;
+}
+
+static uint32_t points_kept(const fr_iri_config *config)
+{
+    uint32_t window = intervals_in(config->moving_average_m, config->interval_m);
+    uint32_t start = intervals_in(config->start_length_m, config->interval_m);
+    if (window == 0u || start == 0u)
+        return 0u;
+    return (window > start ? window : start) + 1u;
+}
+
+size_t fr_iri_size(const fr_iri_config *config)
+{
+    int possible = config != NULL && fr_above_zero(config->interval_m) &&
+                   fr_above_zero(1.0 / config->interval_m) &&
+                   config->interval_m <= LONGEST_INTERVAL_M && config->moving_average_m >= 0.0 &&
+                   fr_finite(config->moving_average_m) && fr_above_zero(config->start_length_m) &&
+                   fr_above_zero(config->speed_kmh) &&
+                   fr_above_zero(config->interval_m / config->speed_kmh);
+    uint32_t kept = possible ? points_kept(config) : 0u;
+    return kept == 0u ? 0u : FR_PADDED(fr_iri) + kept * sizeof(fr_real);
+}
+
+fr_status fr_iri_init(void *memory, size_t size, const fr_iri_config *config, fr_iri **out)
+{
+    fr_iri *iri = (fr_iri *)memory;
+    fr_status status = fr_place(memory, size, config, (const void *)out, fr_iri_size(config),
+                                IRI_MAGIC);
+    if (status != FR_OK)
+        return status;
+    iri->window = intervals_in(config->moving_average_m, config->interval_m);
+    iri->start = intervals_in(config->start_length_m, config->interval_m);
+    iri->room = points_kept(config);
+    iri->per_step = FR_R(1.0 / config->interval_m);
+    iri->per_window = FR_R(1.0 / config->interval_m / iri->window);
+    iri->per_start = FR_R(iri->start * config->interval_m);
+    fr_golden_car(iri->modes, config->interval_m / (config->speed_kmh * (1000.0 / 3600.0)));
+    *out = iri;
+    return FR_OK;
+}
+
+/* Intervals whose output is known once `points` are: none before the slope of the start is. */
+static uint64_t ready_at(const fr_iri *iri, uint64_t points)
+{
+    return points > iri->start && points > iri->window ? points - iri->window : 0u;
+}
+
+static fr_real *point_at(fr_iri *iri, uint64_t point)
+{
+    return (fr_real *)FR_BEHIND(iri, fr_iri) + (size_t)(point % iri->room);
+}
+
+/* Output of the next interval, at a slope that is not yet reduced by that of the start. */
+static fr_real drive(fr_iri *iri, fr_real slope)
+{
+    fr_real z = fr_mode_step(&iri->modes[0], slope - iri->start_slope);
+    z += fr_mode_step(&iri->modes[1], slope - iri->start_slope);
+    iri->total += (double)(z < 0 ? -z : z);
+    iri->outputs++;
+    return z;
+}
+
+static size_t take_point(fr_iri *iri, fr_real z, fr_real *trace)
+{
+    size_t made = 0;
+    *point_at(iri, iri->points) = z;
+    if (iri->points == iri->start)
+        iri->start_slope = (z - *point_at(iri, 0u)) / iri->per_start;
+    iri->points++;
+    while (iri->outputs < ready_at(iri, iri->points)) {
+        uint64_t k = iri->outputs;
+        fr_real rise = *point_at(iri, k + iri->window) - *point_at(iri, k);
+        trace[made++] = drive(iri, rise * iri->per_window);
+    }
+    return made;
+}
+
+fr_status fr_iri_push(fr_iri *iri, const fr_real *elevation, size_t count, fr_real *trace,
+                      size_t capacity, size_t *written)
+{
+    size_t made = 0;
+    fr_status status = fr_ready(iri, IRI_MAGIC);
+    if (status == FR_OK)
+        status = fr_room(0u, trace, capacity, written);
+    if (status == FR_OK)
+        status = fr_check_samples(elevation, count, FR_MISSING_REFUSED);
+    if (status == FR_OK)
+        status = fr_room((size_t)(ready_at(iri, iri->points + count) - iri->outputs), trace,
+                         capacity, written);
+    if (status != FR_OK)
+        return status;
+    for (size_t i = 0; i < count; i++)
+        made += take_point(iri, elevation[i], trace + made);
+    *written = made;
+    return FR_OK;
+}
+
+fr_status fr_iri_finish(fr_iri *iri, fr_real *trace, size_t capacity, size_t *written)
+{
+    size_t made = 0;
+    fr_status status = fr_ready(iri, IRI_MAGIC);
+    if (status == FR_OK && iri->points <= iri->start)
+        status = FR_WRONG_ORDER;
+    if (status == FR_OK)
+        status = fr_room((size_t)(iri->points - 1u - iri->outputs), trace, capacity, written);
+    if (status != FR_OK)
+        return status;
+    while (iri->outputs + 1u < iri->points) {
+        uint64_t last = iri->points - 1u, k = iri->outputs;
+        fr_real rise = *point_at(iri, last) - *point_at(iri, k);
+        trace[made++] = drive(iri, rise * iri->per_step / FR_R(last - k));
+    }
+    iri->head.state = FR_STATE_ENDED;
+    *written = made;
+    return FR_OK;
+}
+
+fr_status fr_iri_value(const fr_iri *iri, fr_real *m_per_km)
+{
+    fr_status status = fr_ready(iri, IRI_MAGIC);
+    if (status != FR_OK && status != FR_WRONG_ORDER)
+        return status;
+    if (m_per_km == NULL)
+        return FR_NULL_POINTER;
+    if (iri->outputs == 0u)
+        return FR_WRONG_ORDER;
+    *m_per_km = FR_R(iri->total / (double)iri->outputs);
+    return FR_OK;
+}
