@@ -7,6 +7,11 @@ import re
 import sys
 from pathlib import Path
 
+ABOUT = """/* SPDX-License-Identifier: Apache-2.0
+ *
+ * libfloatref, all sources in one file.
+ */
+"""
 INCLUDE = re.compile(r'^#include ([<"])([^">]+)[">]\n', re.M)
 
 
@@ -23,8 +28,7 @@ def amalgamate(sources: Path) -> str:
         for source in sorted((sources / "src").glob("*.c"))
     ]
     heads = "".join(f"#include <{name}>\n" for name in sorted(standard))
-    about = "/* SPDX-License-Identifier: Apache-2.0\n *\n * libfloatref, all sources in one file.\n */\n"
-    return f'{about}{heads}\n#include "floatref.h"\n\n' + "\n".join(parts)
+    return f'{ABOUT}{heads}\n#include "floatref.h"\n\n' + "\n".join(parts)
 
 
 def _flatten(file: Path, folder: Path, standard: set[str], seen: set[str]) -> str:

@@ -1,4 +1,6 @@
-"""What holds of every object of the C library: splits, copies, refusals, and nothing lost by one."""
+"""What holds of every object of the C library: splits, copies, and refusals that lose nothing."""
+
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -57,7 +59,7 @@ def drawn(inputs, seed):
 
 def run(made, signals, call, outputs, edges):
     found = []
-    for begin, end in zip(edges, edges[1:], strict=False):
+    for begin, end in pairwise(edges):
         part = [x[begin:end] for x in signals]
         status, *results = made.push(*part, call=call, outputs=outputs, capacity=ROOM)
         assert status == 0, made.library.text(status)
@@ -244,11 +246,6 @@ def test_counts_that_go_back_and_speeds_that_cannot_be_are_refused(double):
     whole = double.make("adaptive", **REQUIRED["adaptive"])
     fast = [np.ones(20), np.ones(20), np.arange(20) * 4000 * 1024]
     refused(whole, fast, "push", 2, "FR_BAD_CUTOFF", capacity=10**6)
-    leap = [np.ones(2), np.ones(2), np.array([0, 2**49])]
-    refused(
-        double.make("projection", **REQUIRED["projection"]),
-        leap[1:][::-1],
-        "push",
-        1,
-        "FR_BAD_SAMPLE",
-    )
+    leap = [np.array([0, 2**49]), np.ones(2)]
+    projection = double.make("projection", **REQUIRED["projection"])
+    refused(projection, leap, "push", 1, "FR_BAD_SAMPLE", capacity=ROOM)

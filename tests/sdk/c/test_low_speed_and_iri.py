@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import floatref
 from floatref.errors import InputError
-from floatref.kernels import memories
+from floatref.kernels import cut_off, memories, schedule, varying
 from floatref.measures import iri, iri_trace
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.stages.timer_distortion import adjusted_time_step
@@ -76,7 +76,7 @@ def test_timer_distortion(double, seed, limit, sharpness):
     back=st.booleans(),
 )
 def test_projection(double, plain_sdk, seed, count_m, interval_m, back):
-    x, h, _ = signals(seed)
+    x, *_ = signals(seed)
     steps = np.random.default_rng(seed).integers(-20 if back else 0, 60, x.size)
     counts = np.cumsum(steps) - 77
     distance = np.fmax.accumulate((counts - counts[0]) * count_m)
@@ -130,7 +130,6 @@ def test_a_profile_no_longer_than_the_start_has_no_iri(double):
 
 @pytest.mark.parametrize("setting", ["high_pass", "low_pass", "high_pass_wavelength"])
 def test_settings_of_two_passes(double, setting):
-    from floatref.kernels import cut_off
 
     of_c, of_sdk = (
         getattr(double.lib, f"fr_{setting}_setting"),
@@ -144,8 +143,6 @@ def test_the_compiled_kernels_differ_by_fused_operations_alone(double):
     # sample for its time constant, 1 / c samples, and adds them all up.
     x, _, speed = signals(3, length=4000)
     cutoff = floatref.AdaptiveCutOff().frequency(speed)
-    from floatref.kernels import schedule, varying
-
     c, expected = np.empty((2, x.size))
     schedule.tangents(cutoff, 1 / RATE, c)
     varying.high_pass_1(x, expected, c, new_record(memories.VARYING), False)

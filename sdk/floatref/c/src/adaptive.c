@@ -146,17 +146,18 @@ static size_t take_points(fr_adaptive *adaptive, const int64_t *counts, const fr
     fr_place_of_point place;
     motion *m = &adaptive->motion;
     size_t made = 0;
+    fr_points_begin(&adaptive->points, counts[0]);
     for (size_t i = 0; i < size; i++) {
-        fr_points_begin(&adaptive->points, counts[i]);
-        while (fr_points_next(&adaptive->points, counts[i], &place)) {
-            elevation[made] = fr_points_read(&place, m->elevation, z[i]);
-            speed[made] = fr_points_read(&place, m->speed, v[i]);
+        while (fr_points_reached(&adaptive->points, counts[i]) != 0) {
+            fr_points_next(&adaptive->points, counts[i], &place);
+            elevation[made] = fr_points_read(&place, i > 0u ? z[i - 1u] : m->elevation, z[i]);
+            speed[made] = fr_points_read(&place, i > 0u ? v[i - 1u] : m->speed, v[i]);
             made++;
         }
         fr_points_pass(&adaptive->points, counts[i]);
-        m->elevation = z[i];
-        m->speed = v[i];
     }
+    m->elevation = z[size - 1u];
+    m->speed = v[size - 1u];
     return made;
 }
 
@@ -167,7 +168,8 @@ static void run_adaptive(fr_adaptive *adaptive, const fr_real *a, const fr_real 
     fr_real half = FR_R((double)adaptive->tangent.step / 2.0), g = adaptive->gravity;
     fr_real v[FR_BLOCK], c[FR_BLOCK], z[FR_BLOCK];
     motion *m = &adaptive->motion;
-    for (size_t done = 0, made = 0; done < count;) {
+    size_t done = 0, made = 0;
+    while (done < count) {
         int careful = adaptive->missing == FR_MISSING_BRIDGED || !fr_section_started(&m->height_2);
         size_t most = careful && adaptive->missing == FR_MISSING_REFUSED ? 1u : FR_BLOCK;
         size_t size = count - done < most ? count - done : most;

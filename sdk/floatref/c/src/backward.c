@@ -14,7 +14,8 @@ void fr_pass_backward(const fr_schedule *schedule, const fr_tangent *tangent, fr
     fr_section first, second;
     (void)memset(&first, 0, sizeof first);
     (void)memset(&second, 0, sizeof second);
-    for (size_t behind = count; behind > 0u;) {
+    size_t behind = count;
+    while (behind > 0u) {
         size_t size = behind < FR_BLOCK ? behind : FR_BLOCK, low = behind - size;
         fr_real cutoff[FR_BLOCK], c[FR_BLOCK];
         fr_frequencies(schedule, speed + low, size, cutoff);

@@ -10,8 +10,9 @@
 /* Prime of the hash FNV-1a; it is applied to whole samples. */
 #define PRIME UINT64_C(0x100000001b3)
 
-static uint64_t hash_of(const fr_real *speed, size_t count, uint64_t hash)
+static uint64_t hash_of(const fr_real *speed, size_t count, uint64_t before)
 {
+    uint64_t hash = before;
     for (size_t i = 0; i < count; i++) {
         uint64_t bits = 0;
         (void)memcpy(&bits, &speed[i], sizeof speed[i]);

@@ -124,8 +124,10 @@ static fr_real start_filter(fr_filter *filter, fr_real x)
 static size_t begin_filter(fr_filter *filter, const fr_real *x, size_t count, fr_real *y)
 {
     size_t k = 0;
-    while (k < count && fr_missing(x[fr_index(k, count, filter->backward)]))
-        y[fr_index(k++, count, filter->backward)] = 0;
+    while (k < count && fr_missing(x[fr_index(k, count, filter->backward)])) {
+        y[fr_index(k, count, filter->backward)] = 0;
+        k++;
+    }
     if (k < count) {
         size_t i = fr_index(k, count, filter->backward);
         fr_real first = start_filter(filter, x[i]);

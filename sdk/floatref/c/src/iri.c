@@ -16,6 +16,7 @@
 struct fr_iri {
     fr_head head;
     uint32_t window, start, room; /* intervals of the moving average and of the start; points kept */
+    uint32_t newest, oldest;       /* places in the ring of the next point and of the next output */
     uint64_t points, outputs;
     double total;
     fr_real per_window, per_step, per_start, start_slope;
@@ -82,32 +83,69 @@ static uint64_t ready_at(const fr_iri *iri, uint64_t points)
     return points > iri->start && points > iri->window ? points - iri->window : 0u;
 }
 
-static fr_real *point_at(fr_iri *iri, uint64_t point)
+static fr_real *ring_of(fr_iri *iri)
 {
-    return (fr_real *)FR_BEHIND(iri, fr_iri) + (size_t)(point % iri->room);
+    return (fr_real *)FR_BEHIND(iri, fr_iri);
 }
 
-/* Output of the next interval, at a slope that is not yet reduced by that of the start. */
-static fr_real drive(fr_iri *iri, fr_real slope)
+/* The place that lies `ahead` of another one, which is at most the room. */
+static uint32_t place_at(const fr_iri *iri, uint32_t place, uint32_t ahead)
 {
-    fr_real z = fr_mode_step(&iri->modes[0], slope - iri->start_slope);
-    z += fr_mode_step(&iri->modes[1], slope - iri->start_slope);
-    iri->total += (double)(z < 0 ? -z : z);
-    iri->outputs++;
+    uint32_t next = place + ahead;
+    return next >= iri->room ? next - iri->room : next;
+}
+
+/* What advances from point to point, in registers while a push lasts. */
+typedef struct car {
+    fr_mode body, axle;
+    double total;
+} car;
+
+static car car_of(const fr_iri *iri)
+{
+    car moving = {iri->modes[0], iri->modes[1], iri->total};
+    return moving;
+}
+
+static void keep_car(fr_iri *iri, const car *moving)
+{
+    iri->modes[0] = moving->body;
+    iri->modes[1] = moving->axle;
+    iri->total = moving->total;
+}
+
+/* Output of the next interval, at a slope that is reduced by that of the start. */
+static inline fr_real drive(car *moving, fr_real slope)
+{
+    fr_real z = fr_mode_step(&moving->body, slope);
+    z += fr_mode_step(&moving->axle, slope);
+    moving->total += (double)(z < 0 ? -z : z);
     return z;
 }
 
-static size_t take_point(fr_iri *iri, fr_real z, fr_real *trace)
+/* Keep a point in the ring. Nothing has been written over the first one when the start ends. */
+static void keep_point(fr_iri *iri, fr_real z)
 {
-    size_t made = 0;
-    *point_at(iri, iri->points) = z;
+    fr_real *ring = ring_of(iri);
+    ring[iri->newest] = z;
+    iri->newest = place_at(iri, iri->newest, 1u);
     if (iri->points == iri->start)
-        iri->start_slope = (z - *point_at(iri, 0u)) / iri->per_start;
+        iri->start_slope = (z - ring[0]) / iri->per_start;
     iri->points++;
-    while (iri->outputs < ready_at(iri, iri->points)) {
-        uint64_t k = iri->outputs;
-        fr_real rise = *point_at(iri, k + iri->window) - *point_at(iri, k);
-        trace[made++] = drive(iri, rise * iri->per_window);
+}
+
+/* Write all outputs that are ready; return how many. */
+static size_t drive_on(fr_iri *iri, car *moving, fr_real *trace)
+{
+    const fr_real *ring = ring_of(iri);
+    uint64_t ready = ready_at(iri, iri->points);
+    size_t made = 0;
+    while (iri->outputs < ready) {
+        fr_real rise = ring[place_at(iri, iri->oldest, iri->window)] - ring[iri->oldest];
+        iri->oldest = place_at(iri, iri->oldest, 1u);
+        trace[made] = drive(moving, rise * iri->per_window - iri->start_slope);
+        iri->outputs++;
+        made++;
     }
     return made;
 }
@@ -126,8 +164,12 @@ fr_status fr_iri_push(fr_iri *iri, const fr_real *elevation, size_t count, fr_re
                          capacity, written);
     if (status != FR_OK)
         return status;
-    for (size_t i = 0; i < count; i++)
-        made += take_point(iri, elevation[i], trace + made);
+    car moving = car_of(iri);
+    for (size_t i = 0; i < count; i++) {
+        keep_point(iri, elevation[i]);
+        made += drive_on(iri, &moving, trace + made);
+    }
+    keep_car(iri, &moving);
     *written = made;
     return FR_OK;
 }
@@ -142,11 +184,17 @@ fr_status fr_iri_finish(fr_iri *iri, fr_real *trace, size_t capacity, size_t *wr
         status = fr_room((size_t)(iri->points - 1u - iri->outputs), trace, capacity, written);
     if (status != FR_OK)
         return status;
+    car moving = car_of(iri);
+    fr_real last = ring_of(iri)[place_at(iri, iri->newest, iri->room - 1u)];
     while (iri->outputs + 1u < iri->points) {
-        uint64_t last = iri->points - 1u, k = iri->outputs;
-        fr_real rise = *point_at(iri, last) - *point_at(iri, k);
-        trace[made++] = drive(iri, rise * iri->per_step / FR_R(last - k));
+        fr_real rise = last - ring_of(iri)[iri->oldest];
+        uint64_t left = iri->points - 1u - iri->outputs;
+        iri->oldest = place_at(iri, iri->oldest, 1u);
+        trace[made] = drive(&moving, rise * iri->per_step / FR_R(left) - iri->start_slope);
+        iri->outputs++;
+        made++;
     }
+    keep_car(iri, &moving);
     iri->head.state = FR_STATE_ENDED;
     *written = made;
     return FR_OK;

@@ -95,12 +95,10 @@ void fr_points_begin(fr_points *points, int64_t count)
     }
 }
 
-int fr_points_next(fr_points *points, int64_t count, fr_place_of_point *place)
+void fr_points_next(fr_points *points, int64_t count, fr_place_of_point *place)
 {
     int64_t now = count - points->origin;
     double step_m, way_m;
-    if (now < points->threshold || now < points->furthest)
-        return 0;
     step_m = count_m(points, now) - count_m(points, points->furthest);
     way_m = point_m(points, points->next);
     place->whole = !(step_m > points->interval_m + points->slack_m &&
@@ -110,11 +108,4 @@ int fr_points_next(fr_points *points, int64_t count, fr_place_of_point *place)
         place->part = FR_R((way_m - count_m(points, points->furthest)) / step_m);
     points->next++;
     points->threshold = threshold_of(points, points->next);
-    return 1;
-}
-
-void fr_points_pass(fr_points *points, int64_t count)
-{
-    int64_t now = count - points->origin;
-    points->furthest = now > points->furthest ? now : points->furthest;
 }

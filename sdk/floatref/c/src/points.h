@@ -29,10 +29,25 @@ void fr_points_set(fr_points *points, double interval_m, double metres_per_count
 fr_status fr_points_needed(const fr_points *points, const int64_t *counts, size_t count,
                            size_t *needed);
 
-/* Go on to a sample: call fr_points_next() while it returns 1, then fr_points_pass(). */
+/* Start at the first sample of the run; does nothing later. */
 void fr_points_begin(fr_points *points, int64_t count);
-int fr_points_next(fr_points *points, int64_t count, fr_place_of_point *place);
-void fr_points_pass(fr_points *points, int64_t count);
+
+/* Take the next point, which the sample has reached. */
+void fr_points_next(fr_points *points, int64_t count, fr_place_of_point *place);
+
+/* Whether a sample has reached the next point, and is the farthest so far. */
+static inline int fr_points_reached(const fr_points *points, int64_t count)
+{
+    int64_t now = count - points->origin;
+    return now >= points->threshold && now >= points->furthest;
+}
+
+/* Leave a sample whose points have all been taken. */
+static inline void fr_points_pass(fr_points *points, int64_t count)
+{
+    int64_t now = count - points->origin;
+    points->furthest = now > points->furthest ? now : points->furthest;
+}
 
 static inline fr_real fr_points_read(const fr_place_of_point *place, fr_real before, fr_real now)
 {

@@ -70,7 +70,8 @@ static void run_projection(fr_projection *projection, const int64_t *counts, con
     for (size_t i = 0; i < count; i++) {
         fr_points_begin(&projection->points, counts[i]);
         projection->passed++;
-        while (fr_points_next(&projection->points, counts[i], &place)) {
+        while (fr_points_reached(&projection->points, counts[i]) != 0) {
+            fr_points_next(&projection->points, counts[i], &place);
             y[made] = fr_points_read(&place, projection->last, x[i]);
             if (time_step != NULL)
                 time_step[made] = step_to(projection, place.part);

@@ -58,8 +58,9 @@ static number derivative(number p)
 }
 
 /* The root of D near `p`, by Newton's method. */
-static number root_near(number p)
+static number root_near(number first)
 {
+    number p = first;
     for (int i = 0; i < NEWTON_STEPS; i++) {
         number step = over(determinant(p), derivative(p));
         p.re -= step.re;

@@ -4,10 +4,17 @@
  */
 #include "samples.h"
 
-/* Whether all samples are finite. One loop without a branch, which compilers vectorize. */
+/* As wide as fr_real, so that a loop over both can be vectorized. */
+#ifdef FR_FLOAT
+typedef int32_t mask;
+#else
+typedef int64_t mask;
+#endif
+
+/* Whether all samples are finite. One loop without a branch. */
 static int all_finite(const fr_real *x, size_t count)
 {
-    int wrong = 0;
+    mask wrong = 0;
     for (size_t i = 0; i < count; i++) {
         fr_real zero = x[i] - x[i];
         wrong |= zero != zero;

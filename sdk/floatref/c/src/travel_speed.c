@@ -40,8 +40,9 @@ void fr_travel_set(fr_travel *travel, const fr_travel_speed_config *config)
     travel->duration_s = FR_R((double)travel->window / config->rate_hz);
 }
 
-fr_status fr_check_counts(const int64_t *counts, size_t count, int32_t back, int64_t furthest)
+fr_status fr_check_counts(const int64_t *counts, size_t count, int32_t back, int64_t before)
 {
+    int64_t furthest = before;
     int beyond = 0, behind = 0;
     if (count > 0u && counts == NULL)
         return FR_NULL_POINTER;

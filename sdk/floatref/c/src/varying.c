@@ -119,19 +119,66 @@ static fr_real pass_varying(fr_varying *filter, fr_real x, fr_real c)
     }
 }
 
+/* Whether all sections have started: 1 and 2 are alone, the others are both. */
+static int all_started(const fr_varying *filter)
+{
+    int first = fr_section_started(&filter->first), second = fr_section_started(&filter->second);
+    if (filter->config.sections == FR_SECTION_1)
+        return first;
+    return filter->config.sections == FR_SECTION_2 ? second : first && second;
+}
+
+/* A block of samples that are all there, behind the start: copies of the states stay in
+ * registers, and which sections they pass is decided once. */
+static void run_quickly(fr_varying *filter, const fr_real *x, const fr_real *c, size_t size,
+                        fr_real *y)
+{
+    fr_section first = filter->first, second = filter->second;
+    int backward = filter->config.direction == FR_BACKWARD;
+#define FR_EACH(step)                                                                           \
+    for (size_t k = 0; k < size; k++) {                                                         \
+        size_t i = fr_index(k, size, backward);                                                 \
+        y[i] = (step);                                                                          \
+    }
+    if (filter->config.sections == FR_SECTION_1)
+        FR_EACH(fr_section_1_step(&first, x[i], c[i]))
+    else if (filter->config.sections == FR_SECTION_2)
+        FR_EACH(fr_section_2_step(&second, x[i], c[i]))
+    else if (filter->config.sections == FR_SECTION_12)
+        FR_EACH(fr_section_12_step(&first, &second, x[i], c[i]))
+    else
+        FR_EACH(fr_section_21_step(&second, &first, x[i], c[i]))
+#undef FR_EACH
+    filter->first = first;
+    filter->second = second;
+}
+
+static void run_carefully(fr_varying *filter, const fr_real *x, const fr_real *c, size_t size,
+                          fr_real *y)
+{
+    int backward = filter->config.direction == FR_BACKWARD;
+    for (size_t k = 0; k < size; k++) {
+        size_t i = fr_index(k, size, backward);
+        y[i] = pass_varying(filter, x[i], c[i]);
+    }
+}
+
 static void run_varying(fr_varying *filter, const fr_real *x, const fr_real *cutoff, size_t count,
                         fr_real *y)
 {
     int backward = filter->config.direction == FR_BACKWARD;
+    int whole = filter->config.missing == FR_MISSING_REFUSED;
     fr_real c[FR_BLOCK];
-    for (size_t done = 0; done < count;) {
+    size_t done = 0;
+    while (done < count) {
+        int quick = whole && filter->config.form == FR_RECURSION && all_started(filter);
         size_t size = count - done < FR_BLOCK ? count - done : FR_BLOCK;
         size_t low = backward ? count - done - size : done;
         fr_tangents(&filter->tangent, cutoff + low, size, c);
-        for (size_t k = 0; k < size; k++) {
-            size_t i = fr_index(k, size, backward);
-            y[low + i] = pass_varying(filter, x[low + i], c[i]);
-        }
+        if (quick)
+            run_quickly(filter, x + low, c, size, y + low);
+        else
+            run_carefully(filter, x + low, c, size, y + low);
         done += size;
     }
 }
