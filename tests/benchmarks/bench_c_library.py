@@ -94,6 +94,7 @@ def pairs(library: Library) -> dict[str, tuple[Call, Call]]:
     counts = np.rint(np.cumsum(speed) / RATE_HZ / COUNT_M).astype(np.int64)
     cutoff, step = floatref.AdaptiveCutOff().frequency(speed), 1.0 / RATE_HZ
     schedule.tangents(cutoff, step, c)
+    encoder = {"rate_hz": RATE_HZ, "metres_per_count": COUNT_M}
     fixed = np.tan(np.pi * 0.45 * step)
     fixed_at, at = {"step": step, "cutoff": 0.45}, {"step": step}
     made = {}

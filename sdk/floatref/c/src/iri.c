@@ -77,7 +77,7 @@ fr_status fr_iri_init(void *memory, size_t size, const fr_iri_config *config, fr
     return FR_OK;
 }
 
-/* Intervals whose output is known once `points` are: none before the slope of the start is. */
+/* Intervals whose output is known once `points` are: 0 before the slope of the start is. */
 static uint64_t ready_at(const fr_iri *iri, uint64_t points)
 {
     return points > iri->start && points > iri->window ? points - iri->window : 0u;
