@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -39,8 +40,11 @@ def misra(program: str) -> list[str]:
     """Return what cppcheck finds beside the deviations, and deviations that it does not find."""
     options = ["--addon=misra", "--std=c99", "--enable=style,performance,portability", "--quiet"]
     options += [f"--suppress={name}" for name in SUPPRESSED]
-    command = [program, *options, f"-I{LIBRARY}", str(LIBRARY / "src")]
-    found = subprocess.run(command, capture_output=True, text=True).stderr
+    # Else it writes its files beside the sources.
+    with tempfile.TemporaryDirectory() as folder:
+        options.append(f"--cppcheck-build-dir={folder}")
+        command = [program, *options, f"-I{LIBRARY}", str(LIBRARY / "src")]
+        found = subprocess.run(command, capture_output=True, text=True).stderr
     lines = [line for line in found.splitlines() if FINDING.search(line)]
     matches = {line: RULE.search(line) for line in lines}
     rules = {match[1] for match in matches.values() if match}

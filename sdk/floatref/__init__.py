@@ -21,7 +21,7 @@ from floatref.values.display.views import Place, place_views
 from floatref.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from floatref.c.sources import c_sources as c_sources
+    from floatref.c.c_sources import c_sources as c_sources
     from floatref.engine.lookup import make_stage as make_stage
     from floatref.engine.lookup import pipeline as pipeline
     from floatref.engine.lookup import stage_names as stage_names
@@ -171,7 +171,7 @@ _PUBLIC = {
     "ZHU_HALF_CAR": "vehicle_response",
     "agreement": "measures",
     "answers": "interfaces.markers",
-    "c_sources": "c.sources",
+    "c_sources": "c.c_sources",
     "channel_noise": "measures",
     "check_readings": "vehicle_response",
     "constant_interval": "files.constant_interval",

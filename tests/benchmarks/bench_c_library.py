@@ -138,9 +138,7 @@ def pairs(library: Library) -> dict[str, tuple[Call, Call]]:
             lambda: motion.integrate(x, y, integrator, step / 2.0),
         ),
         "travel speed": (
-            library.call(
-                "travel_speed", [counts], rate_hz=RATE_HZ, metres_per_count=COUNT_M, back=1
-            ),
+            library.call("travel_speed", [counts], **encoder, back=1),
             lambda: progress_speed(np.concatenate((past, counts * COUNT_M)), WINDOW, 0.05),
         ),
         "cut-off (5.3)": (

@@ -1,5 +1,6 @@
 """The C library in double and in float, built once for a session, and its objects as Python's."""
 
+import fcntl
 import importlib
 import importlib.util
 import os
@@ -134,22 +135,33 @@ def compiler():
     return COMPILER
 
 
-@pytest.fixture(scope="session")
-def build(compiler, tmp_path_factory):
-    """Return a function that builds the library in one precision, once."""
-    made = {}
-
-    def library(precision):
-        if precision not in made:
-            folder = tmp_path_factory.mktemp(precision)
+def built(compiler, precision, shared):
+    """Return the shared library of one precision in the folder ``shared``."""
+    folder = shared / f"libfloatref-{precision}"
+    folder.mkdir(exist_ok=True)
+    program = folder / "libfloatref.so"
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not program.exists():
             assert amalgamation.main([str(folder)]) == 0
-            program = folder / "libfloatref.so"
             macro = ["-DFR_FLOAT"] if precision == "float" else []
             command = [compiler, *FLAGS, *macro, "-fPIC", "-shared", "-o", program]
             source = [folder / "floatref.c", "-lm"]
             found = subprocess.run([*command, *source], capture_output=True, text=True)
             assert (found.returncode, found.stderr) == (0, ""), found.stderr
-            made[precision] = Library(precision, program)
+    return program
+
+
+@pytest.fixture(scope="session")
+def build(compiler, tmp_path_factory):
+    """Return a function that builds the library in one precision, once."""
+    made, own = {}, tmp_path_factory.getbasetemp()
+    # The processes of one session have folders in one: the first that needs the library builds it.
+    shared = own.parent if "PYTEST_XDIST_WORKER" in os.environ else own
+
+    def library(precision):
+        if precision not in made:
+            made[precision] = Library(precision, built(compiler, precision, shared))
         return made[precision]
 
     return library
