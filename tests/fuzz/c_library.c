@@ -13,7 +13,7 @@
 
 #include "floatref.h"
 
-enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 20, CALLS = 30, KINDS = 12 };
+enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 20, CALLS = 32, KINDS = 13 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -28,11 +28,13 @@ typedef union any_config {
     fr_local_suppression_config local_suppression;
     fr_matched_high_pass_config matched_high_pass;
     fr_iri_config iri;
+    fr_screening_config screening;
 } any_config;
 
 typedef struct arrays {
     fr_real *x, *h, *f, *s, *y, *z;
     int64_t *n;
+    fr_span *spans;
     size_t count, capacity, written;
 } arrays;
 
@@ -90,6 +92,8 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
         KIND(9, local_suppression, c.rate_hz = 250; c.missing = (int)draw(2))
         KIND(10, matched_high_pass, c.rate_hz = 250; c.missing = (int)draw(2))
         KIND(11, iri, c.interval_m = interval)
+        KIND(12, screening, c.rate_hz = 250; c.metres_per_count = count_m;
+             c.spread_mps2 = draw(2) * 0.1)
     default:
         return FR_BAD_CONFIG;
     }
@@ -102,6 +106,9 @@ static fr_status call(int which, void *o, arrays *a)
     fr_cut_off_config cut_off = fr_cut_off_defaults();
     fr_timer_distortion_config timer = {0.05, 3.576, 25.0};
     switch (which) {
+    case 12: return fr_screening_push(o, a->x, draw(9) ? a->h : NULL, a->n, n, a->spans, room, w);
+    case 30: return fr_screening_finish(o, a->spans, room, w);
+    case 31: return fr_high_pass_set_velocity(o, a->x, n, a->y, room, w);
     case 0: return fr_filter_push(o, a->x, n, a->y, room, w);
     case 1: return fr_varying_push(o, a->x, a->f, n, a->y, room, w);
     case 2: return fr_integral_push(o, a->x, n, a->y, room, w);
@@ -114,7 +121,6 @@ static fr_status call(int which, void *o, arrays *a)
     case 9: return fr_local_suppression_push(o, a->x, a->f, n, a->y, room, w);
     case 10: return fr_matched_high_pass_push(o, a->x, a->h, a->f, n, a->y, room, w);
     case 11: return fr_iri_push(o, a->x, n, a->y, room, w);
-    case 12: return fr_high_pass_set_velocity(o, a->x, n, a->y, room, w);
     case 13: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
     case 14: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
     case 15: return fr_high_pass_set_finish(o);
@@ -146,7 +152,7 @@ static fr_real *drawn_reals(size_t count)
 
 static arrays drawn_arrays(int64_t *counts)
 {
-    arrays a = {NULL, NULL, NULL, NULL, NULL, NULL, NULL, draw(4) ? draw(MOST) : draw(3), 0, 0};
+    arrays a = {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, draw(4) ? draw(MOST) : draw(3), 0, 0};
     a.capacity = draw(6) ? POINTS : draw(MOST);
     a.x = drawn_reals(a.count);
     a.h = drawn_reals(a.count);
@@ -154,6 +160,7 @@ static arrays drawn_arrays(int64_t *counts)
     a.s = drawn_reals(a.count);
     a.y = drawn_reals(a.capacity);
     a.z = drawn_reals(a.capacity);
+    a.spans = malloc(a.capacity * sizeof *a.spans + (a.capacity == 0));
     a.n = malloc(a.count * sizeof *a.n + (a.count == 0));
     for (size_t i = 0; i < a.count; i++)
         a.n[i] = *counts += draw(5000) == 0 ? (draw(2) ? -300000 : 1) * ((int64_t)1 << draw(33))
@@ -171,6 +178,7 @@ static void release(arrays *a)
     free(a->y);
     free(a->z);
     free(a->n);
+    free(a->spans);
 }
 
 static int fail(const char *what, int kind, int which)

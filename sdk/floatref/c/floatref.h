@@ -467,6 +467,46 @@ FR_API fr_status fr_iri_finish(fr_iri *iri, fr_real *trace, size_t capacity, siz
 /* The IRI in m/km of all output so far, after the end too; FR_WRONG_ORDER before the first. */
 FR_API fr_status fr_iri_value(const fr_iri *iri, fr_real *m_per_km);
 
+/* ---------------------------------------------------------------------------------------------
+ * Screening of one sensor as its samples come: gaps that a line does not bridge well (decision
+ * 0004), and a sensor that is stuck: identical samples while the vehicle goes on and the
+ * accelerometer beside it moves. A span is known when it has ended. Constant memory.
+ */
+enum { FR_GAP = 1, FR_STUCK = 2 };
+
+typedef struct fr_span {
+    int64_t first;    /* index of its first sample in the run */
+    int64_t behind;   /* index of the sample behind its last one */
+    int32_t kind;     /* FR_GAP or FR_STUCK */
+    int32_t reserved; /* 0 */
+} fr_span;
+
+typedef struct fr_screening_config {
+    double rate_hz;          /* samples per second; no default */
+    double metres_per_count; /* of the encoder; no default */
+    double longest_gap_s;    /* that a line bridges well; 0.01 */
+    double stuck_s;          /* shortest run of a stuck sensor; 0.05, an accelerometer: 0.02 */
+    double holds;            /* the same in usual holds; 20 */
+    double hold;             /* usual hold: samples for which a working sensor repeats itself; 1 */
+    double travel_m;         /* shortest distance that the vehicle goes meanwhile; 0.5 */
+    double spread_mps2;      /* least spread of the accelerometer meanwhile; 0.1, 0 without one */
+} fr_screening_config;
+
+typedef struct fr_screening fr_screening;
+
+FR_API fr_screening_config fr_screening_defaults(void);
+FR_API size_t fr_screening_size(const fr_screening_config *config);
+FR_API fr_status fr_screening_init(void *memory, size_t size, const fr_screening_config *config,
+                                   fr_screening **out);
+/* `x` of the sensor, NaN where it is missing, and `force` of the accelerometer beside it in m/s^2,
+ * which may be NULL if the spread is 0. FR_OUTPUT_FULL says how many spans end. */
+FR_API fr_status fr_screening_push(fr_screening *screening, const fr_real *x, const fr_real *force,
+                                   const int64_t *counts, size_t count, fr_span *spans,
+                                   size_t capacity, size_t *written);
+/* End the run, and with it what is open: two spans at most. */
+FR_API fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, size_t capacity,
+                                     size_t *written);
+
 #ifdef __cplusplus
 }
 #endif

@@ -24,6 +24,7 @@ REQUIRED = {
     "local_suppression": {"rate_hz": 250.0},
     "matched_high_pass": {"rate_hz": 250.0},
     "iri": {"interval_m": 0.25},
+    "screening": ENCODER,
 }
 """The settings that have no default."""
 CALLS = {
@@ -44,7 +45,7 @@ CALLS = {
 EVERY = [(kind, *call) for kind, calls in CALLS.items() for call in calls]
 PRECISIONS = pytest.mark.parametrize("precision", ["double", "float"])
 OBJECTS = pytest.mark.parametrize(("kind", "call", "inputs", "outputs"), EVERY)
-KINDS = pytest.mark.parametrize("kind", CALLS)
+KINDS = pytest.mark.parametrize("kind", REQUIRED)
 
 
 def drawn(inputs, seed):

@@ -1,0 +1,33 @@
+"""The sizes on the page on the C library are those of the library."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+PAGE = (Path(__file__).parents[3] / "docs" / "c-library.md").read_text(encoding="utf-8")
+ENCODER = {"metres_per_count": 0.001, "rate_hz": 16_000.0}
+STEP = {"step": 1 / 16_000.0}
+SETTINGS = {
+    "filter": {**STEP, "cutoff": 0.45},
+    "varying": STEP,
+    "integral": {"step_s": 1 / 16_000.0},
+    "travel_speed": ENCODER,
+    "high_pass_set": {**STEP, "cutoff": 0.45},
+    "adaptive_set": {"rate_hz": 16_000.0},
+    "adaptive": {"interval_m": 0.025, **{f"travel__{k}": v for k, v in ENCODER.items()}},
+    "local_suppression": {"rate_hz": 16_000.0},
+    "matched_high_pass": {"rate_hz": 16_000.0},
+    "iri": {"interval_m": 0.025},
+    "screening": ENCODER,
+}
+
+
+@pytest.mark.parametrize("kind", SETTINGS)
+def test_an_object_has_the_size_that_the_page_says(double, single, kind):
+    (shown,) = re.findall(rf"^\|.* \| `fr_{kind}` \| (\d+), (\d+) \|$", PAGE, re.M)
+    sizes = [
+        getattr(library.lib, f"fr_{kind}_size")(library.config(kind, **SETTINGS[kind]))
+        for library in (double, single)
+    ]
+    assert sizes == list(map(int, shown))
