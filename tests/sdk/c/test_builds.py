@@ -1,9 +1,11 @@
 """The C library builds cleanly by every way it is offered, and is clean under the sanitizers."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -45,6 +47,30 @@ def test_the_sources_are_files_and_each_names_its_licence():
     for file in files:
         assert file.read_text(encoding="utf-8").startswith("/* SPDX-License-Identifier: Apache-2.0")
     assert "SPDX-License-Identifier" in (sources / "CMakeLists.txt").read_text(encoding="utf-8")
+
+
+def test_header_and_cmake_have_one_version():
+    header = (floatref.c_sources() / "floatref.h").read_text(encoding="utf-8")
+    numbers = re.findall(r"^#define FR_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)$", header, re.M)
+    cmake = (floatref.c_sources() / "CMakeLists.txt").read_text(encoding="utf-8")
+    assert f"project(floatref VERSION {'.'.join(numbers)} " in cmake
+
+
+@pytest.mark.slow
+def test_an_installed_package_has_the_sources(tmp_path):
+    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", tmp_path]
+    succeeds(build, cwd=ROOT)
+    (wheel,) = tmp_path.glob("*.whl")
+    assert wheel.name.endswith("-py3-none-any.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(tmp_path / "installed")
+    # PYTHONPATH comes before the editable package of the site packages.
+    code = "from floatref.c.c_sources import c_sources; print(c_sources())"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "installed")}
+    folder = Path(succeeds([sys.executable, "-c", code], env=environment).stdout.strip())
+    assert folder == tmp_path / "installed" / "floatref" / "c"
+    here = {p.relative_to(floatref.c_sources()) for p in floatref.c_sources().rglob("*.[ch]")}
+    assert {p.relative_to(folder) for p in folder.rglob("*.[ch]")} == here
 
 
 def test_nothing_is_allocated_read_or_printed():
