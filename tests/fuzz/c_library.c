@@ -212,7 +212,7 @@ static int push_once(int kind, void **object, size_t size, int64_t *counts, long
     return wrong ? fail("a refused call changed something", kind, which) : 0;
 }
 
-static void spoil(any_config *config)
+static void change_setting(any_config *config)
 {
     size_t at = 4 * draw(sizeof *config / 4);
     double odd = odd_number();
@@ -233,7 +233,7 @@ static int one_object(long *done, long *objects)
     memset(&config, 0, sizeof config);
     of_kind(kind, 0, &config, NULL, NULL, NULL);
     if (draw(3) == 0)
-        spoil(&config);
+        change_setting(&config);
     of_kind(kind, 1, &config, &size, NULL, NULL);
     if (size > LARGEST)
         return 0;
