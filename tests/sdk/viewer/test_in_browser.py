@@ -1,6 +1,7 @@
 """A page in a browser: zooming draws other data, keys and touch work, the console stays empty."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,16 @@ from floatref.viewer.page_file import PageOptions
 
 pytestmark = pytest.mark.slow
 
+INSIDE = """([k, from, to]) => {
+    drawNow();
+    const [x, ...rows] = panels[k].plot.data;
+    const inside = (row) => [...row].filter((_, i) => x[i] > from && x[i] < to);
+    const solid = rows.filter((_, i) => i % 4 === 0).map(inside);
+    return solid.map((ys) => [ys.some((y) => typeof y === "number"), ys.every((y) => y === null)]);
+}"""
+"""Whether the solid line of every wheel path has a number there, and whether all of it is a gap.
+
+A place without a bin, undefined, is no gap: the line goes on across it."""
 DRAWN = "performance.getEntriesByName('drawn').length > 0"
 DATA = "k => { drawNow(); return panels[k].plot.data.map((row) => [...row]); }"
 PHONE = {
@@ -139,6 +150,28 @@ def test_units_and_axis_change_picture_and_table(opened: Callable[..., Any], pag
     page.select_option("select >> nth=0", "time")
     # The profile is longer than the drive, which lasts 40 s.
     assert max(page.evaluate(DATA, 0)[0]) == pytest.approx(39.9, abs=0.3)
+
+
+def test_over_time_no_line_crosses_what_is_not_valid(
+    opened: Callable[..., Any], road: Callable[..., Profile], drive: Recording, tmp_path: Path
+) -> None:
+    """At a standstill the columns of the picture have no bin, and yet are a gap."""
+    encoder = next(c for c in drive.channels if c.id.name == "distance")
+    stopped = np.maximum(np.minimum(encoder.values, 220.0), encoder.values - 80.0)
+    others = tuple(c for c in drive.channels if c is not encoder)
+    held = replace(drive, channels=(replace(encoder, values=stopped), *others))
+    write_profile_page(tmp_path / "stop.html", {"first": road()}, PageOptions(), held)
+    page = opened(tmp_path / "stop.html")
+    page.select_option("select >> nth=0", "time")
+    times = encoder.clock.times(encoder.values.size) - encoder.span_s[0]
+    # The profile is not valid from 200 to 240 m.
+    begin_s, end_s = (float(times[np.searchsorted(stopped, at)]) for at in (201.0, 239.0))
+    for part in (None, [begin_s - 1.0, end_s + 1.0], [begin_s - 5.0, end_s - 3.0]):
+        if part is not None:
+            page.evaluate("([from, to]) => showPart(from, to)", part)
+        for panel in (0, 1):
+            found = page.evaluate(INSIDE, [panel, begin_s, end_s])
+            assert found == [[False, True]] * 2
 
 
 def test_wheel_paths_runs_and_shift(opened: Callable[..., Any], pages: Path) -> None:

@@ -33,7 +33,7 @@ function pointsOf(line, begin, end, width) {
   const first = Math.max(0, Math.floor(indexOf(line, level, from)) - 1);
   const last = Math.min(level.bins, Math.ceil(indexOf(line, level, to)) + 2);
   const parts = ["values", "others", "sigma"].filter((name) => level[name]);
-  const dense = last - first > 2 * width || line.domain !== shown.axis;
+  const dense = last - first > 2 * width || (line.domain === "time" && shown.axis === "distance");
   const found = dense
     ? inColumns(line, level, first, last, begin, end, width, shift)
     : inBins(line, level, first, last, shift);
@@ -48,12 +48,12 @@ function inBins(line, level, first, last, shift) {
   const marks = [];
   const marked = level.marked === undefined ? null : array(level.marked);
   for (let bin = first; bin < last; bin++) {
-    const at = placeOf(line, level, bin) + shift;
-    const next = bin + 1 < level.bins ? placeOf(line, level, bin + 1) + shift : at;
+    const at = toShown(placeOf(line, level, bin), line.domain) + shift;
+    const next = bin + 1 < level.bins ? toShown(placeOf(line, level, bin + 1), line.domain) + shift : at;
     xs.push(at);
     if (!single) xs.push((at + next) / 2);
     // A sample without a place of its own stands for half a step on either side.
-    const half = single && level.at === undefined ? line.step / 2 : 0;
+    const half = single && level.at === undefined && line.domain === shown.axis ? line.step / 2 : 0;
     if (marked && marked[bin]) addMark(marks, at - half, half ? at + half : next);
   }
   const fill = ([low, high], base) => {
@@ -84,7 +84,8 @@ function inColumns(line, level, first, last, begin, end, width, shift) {
   const marked = level.marked === undefined ? null : array(level.marked);
   for (let bin = first; marked && bin < last; bin++) {
     const at = begin + column[bin - first] / scale;
-    if (marked[bin]) addMark(marks, at, at + 1 / scale, 0.5 / scale);
+    const next = begin + (bin + 1 < last ? column[bin + 1 - first] : column[bin - first]) / scale;
+    if (marked[bin]) addMark(marks, at, Math.max(next, at + 1 / scale), 0.5 / scale);
   }
   const fill = ([low, high], base) => {
     const lows = new Array(2 * width).fill(undefined);
@@ -99,6 +100,12 @@ function inColumns(line, level, first, last, begin, end, width, shift) {
       const known = typeof lows[at] === "number";
       lows[at] = known ? Math.min(lows[at], base + low[bin]) : base + low[bin];
       highs[at] = known ? Math.max(highs[at], base + high[bin]) : base + high[bin];
+    }
+    for (let at = 2, before = lows[0], from = 2; at < 2 * width; at += 2) {
+      if (lows[at] === undefined) continue;
+      if (before === null || lows[at] === null) for (let k = from; k < at; k += 2) lows[k] = highs[k] = null;
+      before = lows[at];
+      from = at + 2;
     }
     for (let at = 0; at < 2 * width; at += 2) {
       lows[at + 1] = lows[at];
