@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from floatref.errors import InputError
 from floatref.measures import agreement, high_pass, on_common_grid
 from floatref.measures.valid_iri import CommonIri, iri_of_common_points
@@ -23,12 +25,15 @@ from floatref.plots.figure import (
     title,
 )
 from floatref.plots.validity_marks import draw_marked, iri_text
+from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 HEIGHTS = (2.6, 1.6, 2.2)
+MARGIN = 0.05
+"""Share of a range of values that is left free beyond it."""
 
 
 def draw_comparison(
@@ -75,9 +80,11 @@ def _draw_track(
     elevation_ax, difference_ax, _ = column
     draw_marked(elevation_ax, x, factor * z[0], both, REFERENCE_COLOUR, "reference")
     draw_marked(elevation_ax, x, factor * z[1], both, COLOURS[0], "profile")
+    _limit_to_valid(elevation_ax, both, *(factor * each for each in z))
     elevation_ax.set_ylabel(f"Elevation, wavelengths\nto 91 m ({unit})")
     difference_factor, difference_unit = in_readable_unit(z[1] - z[0])
     draw_marked(difference_ax, x, difference_factor * (z[1] - z[0]), both, COLOURS[1])
+    _limit_to_valid(difference_ax, both, difference_factor * (z[1] - z[0]))
     difference_ax.set_ylabel(f"Profile − reference\n({difference_unit})")
     _draw_roughness(column[2], expected, found, grid)
     for row, ax in enumerate(column):
@@ -89,7 +96,8 @@ def _draw_track(
 def _draw_roughness(ax: Axes, expected: ProfileTrack, found: ProfileTrack, grid: Profile) -> None:
     """Draw both short-interval roughness profiles, with the IRIs in the legend."""
     middle = grid.distance_m[:-1] + grid.interval_m / 2.0
-    valid, values = expected.valid & found.valid, _common_iri(expected, found, grid.interval_m)
+    highest, valid = 0.0, expected.valid & found.valid
+    values = _common_iri(expected, found, grid.interval_m)
     sides = (
         ("reference", expected, REFERENCE_COLOUR, values.reference_m_per_km),
         ("profile", found, COLOURS[0], values.profile_m_per_km),
@@ -98,8 +106,19 @@ def _draw_roughness(ax: Axes, expected: ProfileTrack, found: ProfileTrack, grid:
         trace, counted = roughness_of(replace(track, valid=valid), grid.interval_m)
         label = f"{name}: {iri_text(value, values.counted_share)}"
         draw_marked(ax, middle, trace, counted, colour, label)
+        highest = max(highest, float(np.max(trace[counted], initial=0.0)))
+    if highest > 0.0:
+        ax.set_ylim(top=(1.0 + MARGIN) * highest)
     ax.set_ylabel("Roughness over\n7.62 m (m/km)")
     ax.set_ylim(bottom=0.0)
+
+
+def _limit_to_valid(ax: Axes, valid: BoolArray, *lines: FloatArray) -> None:
+    """Give ``ax`` the range of the ``valid`` points of all ``lines``, and a margin."""
+    shown = np.concatenate([line[valid & np.isfinite(line)] for line in lines])
+    if shown.size and np.ptp(shown) > 0.0:
+        margin = MARGIN * float(np.ptp(shown))
+        ax.set_ylim(float(shown.min()) - margin, float(shown.max()) + margin)
 
 
 def _common_iri(expected: ProfileTrack, found: ProfileTrack, interval_m: float) -> CommonIri:
@@ -121,7 +140,8 @@ def _title(
     except InputError:
         return f"{expected.name}: too little in common for an agreement"
     sound = bool((expected.valid & found.valid).all())
-    invalid = "" if sound else ", with points that are not valid"
+    # The legend is on the right of the lower line.
+    invalid = "" if sound else "\nwith points that are not valid"
     return (
         f"{expected.name}: agreement {result.cross_correlation:.3f} "
         f"at an offset of {result.offset_m:+.3f} m{invalid}"
