@@ -1,6 +1,8 @@
 """`floatref convert`: a profile or a recording of any format, written in another."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -8,7 +10,11 @@ from floatref.cli.format_option import FormatName
 from floatref.cli.printing import number, print_table
 from floatref.engine.formats import format_of, profile_of, write_as
 from floatref.engine.plugins import plugins
+from floatref.engine.recordings.readers import find_readers
 from floatref.engine.recordings.recording_formats import (
+    holds_setup,
+    is_native_file,
+    is_profile_only,
     is_recording,
     recording_format_of,
     write_recording_as,
@@ -16,9 +22,16 @@ from floatref.engine.recordings.recording_formats import (
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
 from floatref.files.sources import name_errors
+from floatref.files.withheld_formats import WITHHELD
+from floatref.interfaces.profile_format import ProfileFormat
 from floatref.interfaces.recording_format import RecordingFolder, RecordingFormat
+from floatref.values.display.similar_names import hint_at
+from floatref.values.installation import Setup
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
+
+if TYPE_CHECKING:
+    from floatref.mapping.sources import Source
 
 
 @click.command("convert")
@@ -58,14 +71,12 @@ def convert(
     if written is None:
         _convert_profile(source, out, form, overwrite)
         return
-    from floatref.mapping.sources import recording_of
-
     check_target(out, overwrite)
     _check_apart(source, out)
-    read = recording_of(source, adapter, channel_map)
+    read = _read_recording(source, adapter, channel_map)
     with name_errors(source), read.name_errors_natively():
         write_recording_as(written, read.recording, out, overwrite)
-    for line in read.warnings:
+    for line in (*read.warnings, *_setup_warnings(written, read.recording, out)):
         click.echo(f"Warning: {line}", err=True)
     _print_channels(read.recording, out)
 
@@ -76,21 +87,84 @@ def _recording_format(
     """Return the format in which ``source`` is written if it is a recording, None for a profile.
 
     ``given`` says that the command has an option of recordings. Raises InputError for a recording
-    whose target holds profiles.
+    whose target holds profiles or is of no format, and for a profile whose target holds recordings.
     """
     written = recording_format_of(out, form)
     if written is not None:
+        if not given and is_profile_only(source):
+            raise _refusal_of_profile(source, f"format {form}" if form else out.suffix)
         return written
-    if not (given or is_recording(source)):
+    folder = form is None and not out.suffix[1:].isalpha()
+    profiles = [*_suffixes(plugins().profile_formats()), *WITHHELD]
+    known = form is not None or out.suffix.lower() in profiles
+    # Where the target holds profiles, a table of text is read as one: it says what is missing.
+    if not (given or is_recording(source) or (not known and is_native_file(source))):
         return None
-    if form is None and not out.suffix[1:].isalpha():
+    if folder:
         return RecordingFolder()
-    suffixes = ", ".join(f.suffix for f in plugins().recording_formats().values() if f.suffix)
-    what = "--adapter and --map read a recording" if given else f"{source}: a recording"
-    raise InputError(
-        f"{what}, and {form or out.suffix} holds profiles; make one of it with floatref process, "
-        f"or write {suffixes} or a name without a suffix"
+    raise _refusal_of_recording("" if given else f"{source}: ", out, form, known)
+
+
+def _refusal_of_profile(source: Path, target: str) -> InputError:
+    suffixes = ", ".join(_suffixes(plugins().profile_formats()))
+    return InputError(
+        f"{source}: is a profile, and {target} holds recordings; write {suffixes} or a name "
+        "without a suffix"
     )
+
+
+def _refusal_of_recording(where: str, out: Path, form: str | None, known: bool) -> InputError:
+    """Return the error for a target that holds no recordings; ``known`` if it holds profiles."""
+    suffixes = _suffixes(plugins().recording_formats())
+    instead = f"{', '.join(suffixes)} or a name without a suffix"
+    if not known:
+        hint = hint_at(out.suffix.lower(), suffixes)
+        return InputError(
+            f"{out}: suffix {out.suffix} is no format; a recording is written as {instead}{hint}"
+        )
+    what = f"{where}a recording" if where else "--adapter and --map read a recording"
+    return InputError(
+        f"{what}, and {form or out.suffix} holds profiles; make one of it with floatref process, "
+        f"or write {instead}"
+    )
+
+
+def _suffixes(formats: Mapping[str, ProfileFormat] | Mapping[str, RecordingFormat]) -> list[str]:
+    return [form.suffix for form in formats.values() if form.suffix]
+
+
+def _setup_warnings(form: RecordingFormat, recording: Recording, out: Path) -> list[str]:
+    """Return the warning that ``out`` does not hold the setup, if the recording has one."""
+    if holds_setup(form) or recording.setup == Setup():
+        return []
+    return [
+        f"{out}: the setup (offsets of sensors, profile interval) is not in the file; when it is "
+        "processed, give it in [setup] of a channel map, with --map"
+    ]
+
+
+def _read_recording(source: Path, adapter: str | None, channel_map: Path | None) -> "Source":
+    """Return the recording; of a table of text the error says why it is no profile as well."""
+    from floatref.mapping.sources import recording_of
+
+    try:
+        return recording_of(source, adapter, channel_map)
+    except InputError as error:
+        names = [reader.name for reader in find_readers(source)]
+        if adapter is not None or channel_map is not None or names != ["csv"]:
+            raise
+        reason = _why_no_profile(source)
+        raise InputError(
+            f"{error}; or, as a profile: {reason}" if reason else str(error)
+        ) from error
+
+
+def _why_no_profile(source: Path) -> str:
+    try:
+        profile_of(source)
+    except InputError as error:
+        return "; or, as a profile: " + str(error).removeprefix(f"{source}: ")
+    return ""
 
 
 def _convert_profile(source: Path, out: Path, form: str | None, overwrite: bool) -> None:

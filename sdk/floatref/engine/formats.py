@@ -7,6 +7,7 @@ from pathlib import Path
 from floatref.engine.plugins import plugins
 from floatref.engine.recordings.plug_in_files import failure, write_file
 from floatref.engine.recordings.readers import find_readers
+from floatref.engine.recordings.recognising_profiles import profile_formats_of
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import read_profile, write_profile
 from floatref.files.sources import name_errors
@@ -25,9 +26,7 @@ def profile_of(path: Path) -> Profile:
     error of a format.
     """
     path = Path(path)
-    found = [
-        form for form in plugins().profile_formats().values() if _recognise_profile(form, path)
-    ]
+    found = profile_formats_of(path)
     if not found or RecordingDirectory().recognises(path):
         _refuse_recording(path)
     if not found:
@@ -41,7 +40,7 @@ def profile_of(path: Path) -> Profile:
 
 def is_profile(path: Path) -> bool:
     """Return whether any format of profiles recognises ``path``."""
-    return any(_recognise_profile(form, path) for form in plugins().profile_formats().values())
+    return bool(profile_formats_of(path))
 
 
 def _refuse_recording(path: Path) -> None:
@@ -57,17 +56,6 @@ def _refuse_recording(path: Path) -> None:
             f"{path}: is a recording for adapter {' or '.join(readers)}, no profile; process it "
             f"first: floatref process {shlex.quote(str(path))} --out PROFILE"
         )
-
-
-def _recognise_profile(form: ProfileFormat, path: Path) -> bool:
-    try:
-        return bool(form.recognises(path))
-    except (OSError, ValueError):
-        # A name that cannot be opened: reading it raises the error.
-        return False
-    except Exception as error:
-        plugins().reports.append(failure(f"format {form.name}", path, error))
-        return False
 
 
 def _read(form: ProfileFormat, path: Path) -> Profile:

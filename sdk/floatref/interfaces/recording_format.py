@@ -12,8 +12,9 @@ class RecordingFormat(Protocol):
 
     `suffix`, such as ".mcap", has small letters only. The file gets its final name when `write` has
     returned. A format that needs a library may have a method `check_installed`, which raises
-    InputError if the library is missing; it is called before the recording is read. An adapter
-    reads such files back.
+    InputError if the library is missing; it is called before the recording is read. A format whose
+    files do not hold the setup has `holds_setup = False`: `convert` then warns that it is left out.
+    An adapter reads such files back.
     """
 
     name: str

@@ -1,14 +1,24 @@
 """`floatref convert` of recordings: to files for other programs and back, and what is refused."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from asammdf import MDF, Signal
 
-from floatref.files import read_profile, read_recording, write_profile, write_recording
+from floatref import InputError, process
+from floatref.files import (
+    read_profile,
+    read_recording,
+    write_profile,
+    write_profile_csv,
+    write_recording,
+)
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
+from floatref_adapters.formats.mdf4.mdf_writing import Mf4Recording
 
 
 def drive() -> Recording:
@@ -33,6 +43,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_recording(drive(), place / "run")
     track = ProfileTrack.of("left", [0.0, 0.1, 0.2])
     write_profile(Profile(0.05, (track,)), place / "road")
+    write_profile_csv(Profile(0.05, (track,)), place / "road.csv")
+    Mf4Recording().write(drive(), place / "ours.mf4")
+    with MDF() as theirs:
+        theirs.append(Signal(np.zeros(9), np.arange(9.0), "V", "AI7"))
+        theirs.save(place / "theirs.mf4")
     return place
 
 
@@ -75,16 +90,70 @@ def test_a_native_file_with_its_map_becomes_a_directory(folder: Path, tmp_path: 
         np.testing.assert_array_equal(found.channel(*channel.id).values, channel.values)
 
 
+def test_a_native_file_with_our_names_becomes_a_directory(folder: Path, tmp_path: Path, ran):
+    ran("convert", folder / "ours.mf4", "--out", tmp_path / "again")
+    found, expected = read_recording(tmp_path / "again"), drive()
+    assert {channel.id for channel in found.channels} == {c.id for c in expected.channels}
+    for channel in expected.channels:
+        np.testing.assert_array_equal(found.channel(*channel.id).values, channel.values)
+
+
+def test_a_setup_that_the_file_does_not_hold_is_said_in_one_line(folder, tmp_path, ran):
+    """MDF 4 has no place for it; MCAP and a directory have; there may be none to lose."""
+    write_recording(replace(drive(), setup=Setup()), tmp_path / "bare")
+    errors = {
+        (source, out): ran("convert", source, "--out", tmp_path / out).stderr.splitlines()
+        for source in (folder / "run", tmp_path / "bare")
+        for out in (f"{source.name}.mf4", f"{source.name}.mcap", f"{source.name}-copy")
+    }
+    (line,) = errors.pop((folder / "run", "run.mf4"))
+    assert line.startswith(f"Warning: {tmp_path / 'run.mf4'}: the setup")
+    assert "[setup] of a channel map" in line
+    assert not any(errors.values())
+
+
+@pytest.mark.parametrize("name", ["road", "road.csv", "road/profile.json"])
+def test_a_profile_where_a_recording_is_read_is_called_one(folder: Path, name: str, refused):
+    path, out = folder / name, folder / "o"
+    commands = (
+        ("process", path, "--out", out),
+        ("pipelines", path),
+        ("channels", path),
+        ("view", folder / "road", "--recording", path, "--out", f"{out}.html"),
+    )
+    for command in commands:
+        assert f"{path}: is a profile, no recording; give the recording" in refused(*command)
+    with pytest.raises(InputError, match="is a profile, no recording"):
+        process(path)
+
+
+def test_any_other_json_file_is_called_no_profile(tmp_path: Path, refused):
+    (tmp_path / "settings.json").write_text("{}")
+    line = refused("process", tmp_path / "settings.json", "--out", tmp_path / "o")
+    assert "no adapter recognises it" in line
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["run", "--out", "o.erd"], "run: a recording, and .erd holds profiles; make one of it"),
         (["run", "--out", "o", "--format", "csv"], "a recording, and csv holds profiles"),
-        (["road", "--out", "o.mcap"], "road: no adapter recognises it"),
+        (["run", "--out", "o.xyz"], "o.xyz: suffix .xyz is no format; a recording is written as"),
+        (["run", "--out", "o.mcp"], "did you mean .mcap?"),
+        (["run", "--out", "o.ppf"], "run: a recording, and .ppf holds profiles"),
+        (["ours.mf4", "--out", "o.xyz"], "o.xyz: suffix .xyz is no format; a recording is"),
+        (["ours.mf4", "--out", "o.erd"], "ours.mf4: is a recording for adapter mdf4, no profile"),
+        (["theirs.mf4", "--out", "o"], "theirs.mf4: no channel of it has a name of floatref's"),
+        (["road", "--out", "o.mcap"], "road: is a profile, and .mcap holds recordings; write .csv"),
+        (["road.csv", "--out", "o.mf4"], "road.csv: is a profile, and .mf4 holds recordings"),
+        (["road", "--out", "o", "--format", "recording"], "and format recording holds recordings"),
         (["gone", "--out", "o.mcap"], "gone: not found"),
         (["run", "--out", "run.mcap"], "exists"),
         (["run", "--out", "run/o.mcap"], "lies in, the source itself"),
         (["text.csv", "--out", "o.mf4"], "text.csv"),
+        (["text.csv", "--out", "o"], "text.csv: no channel of it has a name of floatref's"),
+        (["text.csv", "--out", "o"], "; or, as a profile: columns are"),
+        (["text.csv", "--out", "o.erd"], "text.csv: columns are"),
         (["damaged.mcap", "--out", "o.mf4"], "damaged.mcap: cannot be read"),
         (["road", "--out", "o.csv", "--map", "m.toml"], "--adapter and --map read a recording"),
     ],

@@ -8,7 +8,7 @@ import pytest
 from floatref import hookimpl
 from floatref.engine import formats, plugins
 from floatref.engine.formats import format_of, profile_of, write_as
-from floatref.engine.recordings import readers
+from floatref.engine.recordings import readers, recognising_profiles
 from floatref.errors import InputError, PluginError
 from floatref.files import write_profile, write_profile_csv
 from floatref.values.profile import Profile, ProfileTrack
@@ -37,7 +37,7 @@ class Mine:
 @pytest.fixture
 def known(monkeypatch):
     loaded = plugins.Plugins()
-    for module in (formats, readers):
+    for module in (formats, readers, recognising_profiles):
         monkeypatch.setattr(module, "plugins", lambda: loaded)
 
     def add(*formats):

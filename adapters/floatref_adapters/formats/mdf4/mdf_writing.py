@@ -24,6 +24,7 @@ class Mf4Recording:
     name = "mdf4"
     suffix = ".mf4"
     summary = "ASAM MDF 4 (.mf4): a channel group per clock, for any program that reads MDF"
+    holds_setup = False
 
     def check_installed(self) -> None:
         """Raise InputError where asammdf is missing."""

@@ -69,7 +69,9 @@ def _convert(path: Path, processing: Processing, out: Path, commands: Commands) 
             return Converted(_load_apart(read_profile(path), path))
         no_profile = ""
         if not path.is_dir():
-            no_profile = commands.run("convert", "--out", str(out), "--", str(path)).error
+            # A name without a suffix alone would be the directory of a recording as well.
+            target = ("--format", "profile", "--out", str(out))
+            no_profile = commands.run("convert", *target, "--", str(path)).error
             if not no_profile:
                 return Converted(_load_apart(read_profile(out), path))
         return _process(path, processing, out, commands, no_profile)
@@ -86,6 +88,9 @@ def _process(
     )
     if answer.error:
         bare = [_without(path, reason) for reason in (no_profile, answer.error) if reason]
+        if no_profile and bare[-1].startswith("is a profile, no recording"):
+            # In the format of a profile: what is wrong with it is all there is to say.
+            return Converted(None, error=f"{path}: {bare[0]}")
         both = f"no profile ({bare[0]}), and no recording ({bare[-1]})"
         return Converted(None, error=f"{path}: {both if len(bare) > 1 else bare[0]}")
     report = json.loads(answer.output)

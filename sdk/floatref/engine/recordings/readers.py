@@ -9,6 +9,7 @@ from typing import Any, TypeVar, cast
 
 from floatref.engine.plugins import plugins
 from floatref.engine.recordings.plug_in_files import failure
+from floatref.engine.recordings.recognising_profiles import has_profile_form
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.interfaces.adapter import (
     Adapter,
@@ -34,12 +35,21 @@ def reader_of(source: Path, name: str | None) -> Adapter:
         raise InputError(f"{source}: not found")
     found = find_readers(source)
     if not found:
-        names = ", ".join(plugins().adapters())
-        raise InputError(f"{source}: no adapter recognises it; give --adapter, one of {names}")
+        raise InputError(f"{source}: {_why_no_reader(source)}")
     if len(found) > 1:
         both = " and ".join(adapter.name for adapter in found)
         raise InputError(f"{source}: adapters {both} both recognise it; choose with --adapter")
     return found[0]
+
+
+def _why_no_reader(source: Path) -> str:
+    if has_profile_form(source):
+        return (
+            "is a profile, no recording; give the recording that it was made from; floatref iri, "
+            "compare, view and convert read profiles"
+        )
+    names = ", ".join(plugins().adapters())
+    return f"no adapter recognises it; give --adapter, one of {names}"
 
 
 def find_readers(source: Path) -> list[Adapter]:

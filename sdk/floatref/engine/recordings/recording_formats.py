@@ -5,6 +5,7 @@ from pathlib import Path
 from floatref.engine.plugins import plugins
 from floatref.engine.recordings.plug_in_files import write_file
 from floatref.engine.recordings.readers import find_readers, is_native
+from floatref.engine.recordings.recognising_profiles import has_profile_form, profile_formats_of
 from floatref.errors import InputError
 from floatref.files import write_recording
 from floatref.files.sources import name_errors
@@ -31,6 +32,21 @@ def recording_format_of(out: Path, name: str | None = None) -> RecordingFormat |
 def is_recording(source: Path) -> bool:
     """Return whether ``source`` holds a recording that can be read without a channel map."""
     return any(not is_native(reader) for reader in find_readers(source))
+
+
+def is_native_file(source: Path) -> bool:
+    """Return whether an adapter lists the content of ``source``, which no profile format knows."""
+    return any(map(is_native, find_readers(source))) and not profile_formats_of(source)
+
+
+def is_profile_only(source: Path) -> bool:
+    """Return whether ``source`` is in a profile format, and no adapter recognises it."""
+    return has_profile_form(source) and not find_readers(source)
+
+
+def holds_setup(form: RecordingFormat) -> bool:
+    """Return whether the files of ``form`` hold the setup; a format that leaves it out says so."""
+    return bool(getattr(form, "holds_setup", True))
 
 
 def write_recording_as(

@@ -17,6 +17,7 @@ from floatref.values.clock import UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
 from floatref_adapters.formats.erd.erd_profile import Erd
+from floatref_adapters.formats.mdf4.mdf_writing import Mf4Recording
 from floatref_conformance.certify.plan import commands as commands_module
 from floatref_conformance.certify.plan.commands import Answer, Commands, Stopped
 from floatref_conformance.certify.plan.converting import Converted, convert_all
@@ -24,8 +25,8 @@ from floatref_conformance.certify.plan.plan_document import Processing
 
 SOURCES = {
     "profiles": ("made", "made.csv", "made.erd"),
-    "recordings": ("run",),
-    "neither": ("damaged.erd", "table.csv", "hollow", "gone.erd"),
+    "recordings": ("run", "run.mf4"),
+    "neither": ("damaged.erd", "noise.bin", "table.csv", "hollow", "gone.erd"),
 }
 
 
@@ -37,6 +38,7 @@ def folder(reference: Profile, tmp_path_factory: pytest.TempPathFactory) -> Path
     write_profile_csv(reference, place / "made.csv")
     Erd().write(reference, place / "made.erd")
     write_recording(recording(), place / "run")
+    Mf4Recording().write(recording(), place / "run.mf4")
     (place / "damaged.erd").write_text("ERDFILEV2.00\n 1, 3,\n")
     (place / "noise.bin").write_bytes(bytes(range(256)))
     (place / "table.csv").write_text("time,height\n0,1\n")
@@ -105,13 +107,16 @@ def test_a_profile_keeps_flags_and_sigma_and_does_not_hang_on_its_files(
 
 
 @pytest.mark.slow
-def test_a_recording_is_processed_as_it_was_asked_for(found: Mapping[str, Converted]) -> None:
-    one = found["run"]
+@pytest.mark.parametrize(("name", "adapter"), [("run", "recording"), ("run.mf4", "mdf4")])
+def test_a_recording_is_processed_as_it_was_asked_for(
+    found: Mapping[str, Converted], name: str, adapter: str
+) -> None:
+    one = found[name]
     assert one.error == ""
     assert one.profile is not None
     assert one.profile.pipeline == "spatial-basic"
     assert one.profile.interval_m == 0.1
-    assert one.profile.provenance["adapter"] == "recording"
+    assert one.profile.provenance["adapter"] == adapter
     assert one.notes[0] == "processed by spatial-basic"
 
 
@@ -131,8 +136,9 @@ def test_warnings_of_processing_are_told(
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("damaged.erd", "no profile ("),
-        ("damaged.erd", "no recording (no adapter recognises it"),
+        ("damaged.erd", "damaged.erd: no line END after the header"),
+        ("noise.bin", "no profile ("),
+        ("noise.bin", "no recording (no adapter recognises it"),
         ("table.csv", "no profile (columns are"),
         ("hollow", ""),
         ("gone.erd", "No such file"),
