@@ -52,6 +52,7 @@ def batch_document(command: Command, tally: Tally, finished: Finished) -> dict[s
         "options": dict(command.options),
         "versions": {"floatref": __version__, **{name: version(name) for name in USED}},
         "files": _files(tally, finished),
+        "pipelines": _pipelines(tally),
         "length_km": tally.length_m / 1000.0,
         "warnings": tally.warnings,
         "effort": _effort(tally),
@@ -81,6 +82,11 @@ def _files(tally: Tally, finished: Finished) -> dict[str, int]:
         "passed_over": len(finished.passed_over),
         "no_longer_given": len(finished.no_longer_given),
     }
+
+
+def _pipelines(tally: Tally) -> dict[str, int]:
+    """Return the number of profiles by pipeline, the largest first; files end in any order."""
+    return dict(sorted(tally.pipelines.items(), key=lambda item: (-item[1], item[0])))
 
 
 def _effort(tally: Tally) -> dict[str, Any]:

@@ -67,6 +67,11 @@ def not_given(out: Path, jobs: Iterable[Job]) -> tuple[str, ...]:
     return tuple(sorted(others, key=natural_key))
 
 
+def count_recorded(jobs: Iterable[Job]) -> int:
+    """Return the number of ``jobs`` that have a record, of this or of an earlier command."""
+    return sum(os.path.isfile(job.record) for job in jobs)
+
+
 def _make(out: Path, resume: bool) -> bool:
     """Make ``out`` if it is missing, and return whether it was."""
     with suppress(FileExistsError):

@@ -86,9 +86,9 @@ class Record:
         warnings: of reading and processing, one line each.
         remarks: measures of the profile that failed, one line each.
         key: ``asked``, what the profile depends on besides its inputs; ``segment_m`` and
-            ``measured``, what its rows were asked to have; after success also the ``settings`` of
-            the profile, the ``adapter`` that read it, and ``located``, whether the recording tells
-            where it was.
+            ``measured``, what its rows were asked to have; after success also the ``pipeline``
+            that was taken, ``chosen``, why ``auto`` took it or None, the profile's ``settings``,
+            the ``adapter`` that read it, and ``located``, whether the recording tells where it was.
         inputs: SHA-256 of every file that was read, by its absolute path.
         outputs: SHA-256 of every file of the profile, by its name.
         effort: its cost.
@@ -107,6 +107,11 @@ class Record:
     length_m: float = 0.0
     effort: Effort = field(default_factory=Effort)
     skipped: bool = False
+
+    @property
+    def pipeline(self) -> str:
+        """The pipeline that was taken; the one that was asked for where that is not known."""
+        return str(self.key.get("pipeline") or self.key.get("asked", {}).get("pipeline", ""))
 
 
 SCHEMA = "floatref-batch-record-1"

@@ -127,7 +127,7 @@ def _common(record: Record) -> dict[str, str]:
         "status": "failed" if record.error else "done",
         "error": record.error,
         "warnings": " | ".join((*record.warnings, *record.remarks)),
-        "pipeline": asked.get("pipeline", ""),
+        "pipeline": record.pipeline,
         "settings": _json(record.key.get("settings", asked.get("settings", {}))),
         "versions": _json(asked.get("versions", {})),
         "adapter": record.key.get("adapter") or asked.get("adapter") or "",

@@ -1,6 +1,7 @@
 """Counts while files are processed: files, bytes, kilometres, remaining time, the roughest."""
 
 import heapq
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import isnan, nan
@@ -30,6 +31,7 @@ class Tally:
         failed: name and reason of every file without a profile.
         warnings: lines of warnings of all files.
         first_warnings: names and lines of the first of them.
+        pipelines: files with a profile by the pipeline that made it.
         length_m: of all profiles; ``new_m`` of those that this command has made.
         effort: of all profiles, whenever they were made: sums, and the largest peak of memory.
         roughest: IRI of valid points in m/km, name and row, the largest first.
@@ -44,6 +46,7 @@ class Tally:
     failed: dict[str, str] = field(default_factory=dict)
     warnings: int = 0
     first_warnings: list[tuple[str, str]] = field(default_factory=list)
+    pipelines: Counter[str] = field(default_factory=Counter)
     length_m: float = 0.0
     new_m: float = 0.0
     effort: Effort = field(default_factory=Effort)
@@ -67,6 +70,7 @@ class Tally:
             self.failed[record.name] = record.error
             return
         self.done += 1
+        self.pipelines[record.pipeline] += 1
         self.length_m += record.length_m
         self.effort = total(self.effort, record.effort)
         self._keep_roughest(record)

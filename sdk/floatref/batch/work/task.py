@@ -155,6 +155,8 @@ def _make_profile(job: Job) -> Record:
     _make_room(job.profile)
     write_profile(profile, job.profile, overwrite=True)
     more = {
+        "pipeline": profile.pipeline,
+        "chosen": profile.provenance.get("chosen", {}).get("reason"),
         "settings": dict(profile.settings),
         "adapter": read.origin["adapter"],
         "located": is_located(read.recording),

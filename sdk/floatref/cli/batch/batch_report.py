@@ -117,6 +117,7 @@ NAMES = 3
 def print_report(document: Mapping[str, Any], tally: Tally, out: Path) -> None:
     """Print counts, the roughest segments, failures with their reasons, and the written files."""
     _print_counts(document)
+    _print_pipelines(document["pipelines"])
     if tally.roughest or tally.not_ranked:
         _print_roughest(tally)
     if tally.failed:
@@ -149,8 +150,7 @@ def tell_warnings(tally: Tally) -> None:
 def count_names(names: Sequence[str]) -> str:
     """Return the number of ``names``, and the first of them."""
     more = ", ..." if len(names) > NAMES else ""
-    files = "1 file" if len(names) == 1 else f"{len(names)} files"
-    return f"{files} ({', '.join(names[:NAMES])}{more})"
+    return f"{_files(len(names))} ({', '.join(names[:NAMES])}{more})"
 
 
 def _print_counts(document: Mapping[str, Any]) -> None:
@@ -172,6 +172,16 @@ def _print_counts(document: Mapping[str, Any]) -> None:
         ["largest memory MB", number(effort["peak_bytes"] / 1e6, 0)],
     ]
     print_table("Batch", ("", "number"), rows)
+
+
+def _print_pipelines(pipelines: Mapping[str, int]) -> None:
+    if pipelines:
+        made = ", ".join(f"{name} {_files(count)}" for name, count in pipelines.items())
+        click.echo(f"Made by: {made}\n")
+
+
+def _files(count: int) -> str:
+    return "1 file" if count == 1 else f"{count} files"
 
 
 def _print_roughest(tally: Tally) -> None:

@@ -1,11 +1,14 @@
 """`floatref batch`: many recordings into profiles and one summary, on a Dask cluster."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
 
 from floatref.batch.jobs.defaults import Defaults
 from floatref.batch.jobs.inputs import find_jobs
+from floatref.batch.jobs.job import Job
+from floatref.batch.results.folder import count_recorded
 from floatref.batch.results.totals import Tally
 from floatref.batch.work.cluster import check_installed
 from floatref.cli.batch.batch_report import print_report
@@ -100,14 +103,15 @@ def batch(
     """
     if jobs and cluster:
         raise InputError("--jobs is for workers of this machine; omit it or --cluster")
-    tally = Tally()
-    with interruptible(lambda: _describe_interruption(tally)):
+    tally, begun = Tally(), list[Job]()
+    with interruptible(lambda: _describe_interruption(begun)):
         check_installed()
         _check_drawing(plot, out)
         _check_layers(gis, out)
         chosen = read_settings(settings)
         defaults = Defaults(adapter, channel_map, pipeline, chosen, segment_m, measures)
         found = find_jobs(given, out, defaults)
+        begun += found.jobs
         work = Work(given, defaults, out, resume, jobs, cluster, plot, gis)
         report = work_through(found, work, tally)
     print_json(report) if as_json else print_report(report, tally, out)
@@ -133,11 +137,15 @@ def _check_drawing(plot: Path | None, out: Path) -> None:
     check_drawing(plot)
 
 
-def _describe_interruption(tally: Tally) -> str:
-    """Return one line on the number of files that are done."""
-    if not tally.seen:
+def _describe_interruption(jobs: Sequence[Job]) -> str:
+    """Return one line on the number of ``jobs`` that have a result on disk.
+
+    Workers write it before the command hears of it, so the command's own count is late.
+    """
+    count = count_recorded(jobs)
+    if not count:
         return "Interrupted before any file was done"
     return (
-        f"Interrupted: {tally.seen} of {tally.files} files are done; the same command with "
+        f"Interrupted: {count} of {len(jobs)} files have a result; the same command with "
         "--resume goes on"
     )

@@ -17,7 +17,8 @@ from floatref.batch.results.record import Effort, Record
 from floatref.batch.results.totals import Tally
 from floatref.errors import InputError
 
-RECORD = Record("a", "/in/a", length_m=2000.0, effort=Effort(9.0, 3.0, 4_000, 1_000, 77))
+KEY = {"asked": {"pipeline": "auto"}, "pipeline": "best"}
+RECORD = Record("a", "/in/a", key=KEY, length_m=2000.0, effort=Effort(9.0, 3.0, 4_000, 1_000, 77))
 FINISHED = Finished(10.0, 2, [Path("/in/notes.txt")], ["z", "y"])
 
 
@@ -43,6 +44,7 @@ def test_counts_and_costs_are_told(tmp_path: Path) -> None:
         "passed_over": 1,
         "no_longer_given": 2,
     }
+    assert document["pipelines"] == {"best": 2}
     assert document["length_km"] == 4.0
     assert document["effort"]["cpu_s_per_km"] == 1.5
     assert document["effort"]["bytes_in_per_km"] == 2000.0

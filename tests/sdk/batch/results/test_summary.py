@@ -88,6 +88,7 @@ def test_what_a_reader_of_the_summary_finds(tmp_path: Path) -> None:
         "asked": {"pipeline": "p", "settings": {"a": 1}, "versions": {"numpy": "2"}},
         "settings": {"a": 1.0, "b": nan},
         "adapter": "mdf4",
+        "pipeline": "taken",
     }
     good = Record("x/run.mf4", "/data/run.mf4", rows=(ROW,), key=key, outputs={"left.f64": "0"})
     bad = Record("y", "/data/y", error="no such file", key={"asked": key["asked"]})
@@ -96,9 +97,11 @@ def test_what_a_reader_of_the_summary_finds(tmp_path: Path) -> None:
     assert first["profile"] == "profiles/x/run.mf4"
     assert json.loads(first["settings"]) == {"a": 1.0, "b": None}
     assert json.loads(first["versions"]) == {"numpy": "2"}
-    assert (first["adapter"], first["pipeline"]) == ("mdf4", "p")
+    assert (first["adapter"], first["pipeline"]) == ("mdf4", "taken")
     assert (second["status"], second["track"], second["profile"]) == ("failed", None, "")
     assert json.loads(second["settings"]) == {"a": 1}
+    # What failed has taken none, and a record of an earlier version does not tell.
+    assert second["pipeline"] == "p"
 
 
 def test_a_name_that_is_no_text_is_written_out(tmp_path: Path) -> None:

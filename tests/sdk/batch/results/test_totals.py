@@ -71,6 +71,17 @@ def test_files_of_unknown_size_count_alike_and_small_ones_nearly(
     assert tally.left_s(8.0) == pytest.approx(24.0, rel=within)
 
 
+@given(st.lists(st.tuples(st.sampled_from("pq"), st.booleans()), max_size=9))
+def test_every_profile_counts_for_the_pipeline_that_made_it(files: list[tuple[str, bool]]) -> None:
+    tally = Tally()
+    for index, (name, failed) in enumerate(files):
+        key = {"asked": {"pipeline": "auto"}, **({} if failed else {"pipeline": name})}
+        made = record(str(index), key=key, error="damaged" if failed else "")
+        tally.add(job(str(index)), made)
+    assert tally.pipelines.total() == tally.done
+    assert all(tally.pipelines[name] == files.count((name, False)) for name in "pq")
+
+
 def test_effort_is_summed_and_the_peak_of_memory_is_the_largest() -> None:
     tally = Tally()
     tally.begin([job("a"), job("b"), job("c")], 0.0)

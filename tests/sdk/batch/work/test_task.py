@@ -9,10 +9,11 @@ import pytest
 from click.testing import CliRunner
 
 from floatref.batch import Job
-from floatref.batch.results.record import Effort, Record, read_record
+from floatref.batch.results.record import Effort, Record, read_record, write_record
 from floatref.batch.work import task
 from floatref.batch.work.task import run_job
 from floatref.cli.main import main
+from floatref.engine.choosing import AUTO
 from floatref.errors import PluginError
 from floatref.files import profile_directory as profile_files
 from floatref.files import read_profile
@@ -55,6 +56,23 @@ def test_what_comes_back_is_what_is_written(jobs: dict[str, Job], kind: str) -> 
     assert record.effort.bytes_in == sum(Path(p).stat().st_size for p in record.inputs)
     assert record.effort.bytes_out == sum(len(b) for b in content(jobs[kind].profile).values())
     assert record.effort.peak_bytes > 1 << 20
+
+
+def test_the_record_names_the_pipeline_that_auto_has_taken_and_why(jobs: dict[str, Job]) -> None:
+    record = run_job(jobs["directory"])
+    profile = read_profile(jobs["directory"].profile)
+    assert record.key["asked"]["pipeline"] == AUTO
+    assert record.pipeline == profile.pipeline != AUTO
+    assert record.key["chosen"] == profile.provenance["chosen"]["reason"]
+
+
+def test_a_record_that_does_not_name_its_pipeline_still_holds(jobs: dict[str, Job]) -> None:
+    job = jobs["directory"]
+    made = run_job(job)
+    older = {k: v for k, v in made.key.items() if k not in ("pipeline", "chosen")}
+    write_record(replace(made, key=older), job.record)
+    again = run_job(job, resume=True)
+    assert (again.skipped, again.pipeline) == (True, AUTO)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -3,6 +3,7 @@
 import signal
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from io import StringIO
 from pathlib import Path
 from threading import Event
@@ -12,8 +13,9 @@ import click
 import pytest
 from rich.console import Console
 
+from floatref.batch.jobs.inputs import Found
 from floatref.batch.jobs.job import Job
-from floatref.batch.results.record import Record
+from floatref.batch.results.record import Record, write_record
 from floatref.batch.results.totals import Tally
 from floatref.cli.batch.batch_report import (
     FAILURES,
@@ -141,10 +143,12 @@ def test_failures_are_listed_up_to_a_number(capsys: pytest.CaptureFixture[str]) 
     run = {"wall_s": 60.0, "workers": 2, "processed": 24, "length_km": 0.5}
     effort = {"cpu_s": 1.0, "peak_bytes": 1_000_000}
     document = {"files": files, "this_run": run, "effort": effort, "failures": failures}
+    document["pipelines"] = {"best": 20, "other": 1}
     print_report({**document, "warnings": 0, "length_km": 0.5}, tally, Path("out"))
     text = capsys.readouterr().out
     assert text.count("damaged at byte") == FAILURES
     assert "and 3 more, in the summary" in text
+    assert "\nMade by: best 20 files, other 1 file\n" in text
 
 
 @pytest.mark.parametrize(
@@ -179,6 +183,34 @@ def test_a_signal_ends_work_once(
     assert ended.value.exit_code == 130
     assert (steps, capsys.readouterr().err) == (["tidied"], "so far\n")
     assert signal.getsignal(number) is before
+
+
+@pytest.mark.parametrize(
+    ("written", "line"),
+    [
+        ([], "Interrupted before any file was done\n"),
+        (
+            ["a.mf4"],
+            "Interrupted: 1 of 2 files have a result; the same command with --resume goes on\n",
+        ),
+    ],
+)
+def test_what_is_on_disk_counts_although_the_command_has_not_heard_of_it(
+    runs: Path, monkeypatch: pytest.MonkeyPatch, invoke, written: list[str], line: str
+) -> None:
+    (runs / "runs" / "b.mf4").write_bytes(b"another one")
+
+    def interrupted(found: Found, *_: object) -> None:
+        for job in found.jobs:
+            if job.name in written:
+                write_record(Record(job.name, str(job.source)), job.record)
+        # Of a file that is no longer given.
+        write_record(Record("z", "z"), replace(found.jobs[0], name="z").record)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("floatref.cli.batch.command.work_through", interrupted)
+    ended = invoke("batch", "runs", "--out", "out")
+    assert (ended.exit_code, ended.stdout, ended.stderr) == (130, "", line)
 
 
 def test_a_signal_that_was_ignored_stays_so() -> None:

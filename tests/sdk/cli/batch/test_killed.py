@@ -123,7 +123,7 @@ def test_leftovers_are_swept(story: Story) -> None:
 def test_an_interruption_is_one_line_and_130(story: Story) -> None:
     code, out, err = story.interrupted
     assert (code, out) == (130, "")
-    assert err == "Interrupted: 6 of 7 files are done; the same command with --resume goes on"
+    assert err == "Interrupted: 6 of 7 files have a result; the same command with --resume goes on"
 
 
 def test_a_second_command_stays_out_of_the_folder(story: Story) -> None:
