@@ -74,6 +74,7 @@ def check_batch(drawn: Drawn) -> None:
         "warnings": 0,
         "length_km": 0.1,
         "failures": [],
+        "pipelines": {},
     }
     command = click.Command("show", callback=lambda: print_report(document, tally, Path("out")))
     lines = CliRunner().invoke(command, []).stdout.splitlines()

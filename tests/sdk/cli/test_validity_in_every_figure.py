@@ -170,6 +170,7 @@ def test_the_roughest_has_a_mark_if_not_all_of_it_is_valid(capsys) -> None:
     files = dict.fromkeys(("found", "done", "skipped", "failed"), 0)
     report = {"files": files, "warnings": 0, "length_km": 0.4, "effort": {}, "failures": []}
     report["effort"] = {"cpu_s": 0.0, "peak_bytes": 0}
+    report["pipelines"] = {}
     report["this_run"] = {"wall_s": 1.0, "workers": 1, "processed": 0, "length_km": 0.0}
     print_report(report, tally, Path("out"))
     lines = capsys.readouterr().out.splitlines()
