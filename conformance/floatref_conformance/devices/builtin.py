@@ -75,12 +75,16 @@ def process_quietly(
 
 
 def process_with_warnings(recording: Recording, pipeline: str) -> tuple[Profile, tuple[str, ...]]:
-    """Return the profile that ``pipeline`` makes of ``recording``, and its warnings."""
+    """Return the profile that ``pipeline`` makes of ``recording``, and its warnings.
+
+    Those are about sensors: that a pipeline cannot measure a stop says nothing of them.
+    """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", floatref.FloatrefWarning)
         profile = floatref.process(recording, pipeline)
-    ours = (w for w in caught if issubclass(w.category, floatref.FloatrefWarning))
-    return profile, tuple(str(w.message) for w in ours)
+    ours = (str(w.message) for w in caught if issubclass(w.category, floatref.FloatrefWarning))
+    beside = f"{pipeline} cannot measure "
+    return profile, tuple(line for line in ours if not line.startswith(beside))
 
 
 def make(pipeline: str) -> BuiltinDevice:

@@ -102,7 +102,7 @@ def test_a_check_that_there_is_none_of_is_told_in_one_line(tmp_path):
     done = pytest_in(tmp_path, "test_ours.py")
     assert done.returncode == 2
     (line,) = [line for line in done.stdout.splitlines() if line.startswith("TestOurs.checks: ")]
-    assert "unknown check quiesent, bounc; these can be run: quiescent, bounce" in line
+    assert "unknown check quiesent, bounc; did you mean quiescent?" in line
     assert "Traceback" not in done.stdout
 
 
