@@ -9,6 +9,7 @@ from typing import NoReturn
 
 import click
 
+from floatref.cli.lazy import raise_interrupt
 from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.cli.no_verdict import FAULT_OF_THE_SUITE, drop_output, in_one_line
 from floatref_conformance.errors import SuiteError
@@ -58,7 +59,7 @@ def end_like_an_interrupt() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    before = signal.signal(signal.SIGTERM, raise_interrupt)
     try:
         yield
     finally:

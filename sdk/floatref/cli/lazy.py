@@ -1,13 +1,15 @@
 """A click group whose sub-commands are imported when they are called, and their errors."""
 
 import os
+import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from io import TextIOWrapper
+from threading import current_thread, main_thread
 from traceback import walk_tb
-from typing import Any
+from typing import Any, NoReturn
 
 import click
 
@@ -44,6 +46,33 @@ def replace_unknown_letters() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
+
+
+class Interrupt(KeyboardInterrupt):
+    """Ctrl-C in a command.
+
+    `python -m` dies of the signal in the end, whatever its exit code, if an exception of the very
+    type KeyboardInterrupt has left a text that was run, as that of a named tuple.
+    """
+
+
+def raise_interrupt(*_: object) -> NoReturn:
+    """Raise Interrupt, for a signal."""
+    raise Interrupt
+
+
+@contextmanager
+def raising_interrupt() -> Iterator[None]:
+    """Let Ctrl-C raise Interrupt where it would raise KeyboardInterrupt."""
+    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if current_thread() is not main_thread() or not usual:
+        yield
+        return
+    signal.signal(signal.SIGINT, raise_interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 class UnusableInput(click.ClickException):
@@ -113,7 +142,8 @@ class LazyGroup(click.Group):
     def _interruptible(self, ctx: click.Context | None) -> Iterator[None]:
         """Make one line and exit code 130 of Ctrl-C, and of SIGTERM where a command takes it."""
         try:
-            yield
+            with raising_interrupt():
+                yield
         except (KeyboardInterrupt, click.Abort):
             click.echo(self.describe_interruption(ctx), err=True)
             raise click.exceptions.Exit(INTERRUPTED) from None

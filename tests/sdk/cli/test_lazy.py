@@ -57,3 +57,19 @@ def test_a_full_standard_output_is_named(tmp_path: Path, unbuffered: str, words:
         )
     assert done.returncode == 2
     assert done.stderr == "Error: standard output: No space left on device\n"
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("text", ["", "exec"])
+def test_ctrl_c_is_130_wherever_it_comes(tmp_path: Path, text: str) -> None:
+    """Python runs the text of a named tuple; what interrupts that would end `python -m` by -2."""
+    hit = "import os, signal; os.kill(os.getpid(), signal.SIGINT); [0 for _ in range(10**6)]"
+    (tmp_path / "work.py").write_text(f"def command(): {f'exec({hit!r})' if text else hit}\n")
+    (tmp_path / "prog.py").write_text(
+        "import click\nfrom floatref.cli.lazy import LazyGroup\nimport work\n"
+        "work.command = click.command()(work.command)\n"
+        "LazyGroup('prog', lazy={'work': ('work:command', 'works')})()\n"
+    )
+    words = [sys.executable, "-m", "prog", "work"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (130, "Interrupted\n")

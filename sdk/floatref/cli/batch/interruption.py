@@ -8,7 +8,7 @@ from typing import NoReturn
 
 import click
 
-from floatref.cli.lazy import INTERRUPTED
+from floatref.cli.lazy import INTERRUPTED, Interrupt
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
@@ -28,7 +28,7 @@ def interruptible(line: Callable[[], str]) -> Iterator[None]:
     def stop(*_: object) -> NoReturn:
         for number in caught:
             signal.signal(number, signal.SIG_IGN)
-        raise KeyboardInterrupt
+        raise Interrupt
 
     for number in caught:
         signal.signal(number, stop)
