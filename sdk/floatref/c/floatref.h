@@ -515,7 +515,7 @@ FR_API fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, si
  * follows from the longest stretch. A fit is made once for each stop; it takes 0.1 to 2 s on a PC.
  */
 typedef struct fr_level_fit_config {
-    double step_s;        /* from bin to bin, 0.002 to 0.03; 0.01 */
+    double step_s;        /* from bin to bin, 0.002 to 0.06; 0.01 */
     double front_m;       /* front axle ahead of the laser; no default */
     double rear_m;        /* rear axle ahead of the laser, below that of the front axle; no default */
     double lever_m;       /* laser ahead of its accelerometer; 0 */

@@ -37,7 +37,7 @@ static void lay_high_pass(lv_work *w)
 /* Beyond the stretch the road goes on with the slope of its end: what a mark takes of that. */
 static void lay_tails(lv_work *w, int32_t mark)
 {
-    double *tail = w->tails + mark * TAILS;
+    double *tail = w->tails + lv_at(mark, TAILS);
     int32_t left = w->point_of[mark], right = w->points - 1 - left;
     for (int32_t i = 0; i < TAILS; i++)
         tail[i] = 0.0;
@@ -85,10 +85,8 @@ static void weigh(const lv_work *w, int32_t unknown, double *row)
     int32_t j = unknown - w->points;
     int is_slope = j >= 0 && j < w->points;
     for (int32_t mark = 0; mark < w->marks; mark++) {
-        row[mark] = 0.0;
-        if (j < 0)
-            row[mark] = of_elevation(w, mark, unknown);
-        else if (is_slope)
+        row[mark] = j < 0 ? of_elevation(w, mark, unknown) : 0.0;
+        if (is_slope)
             row[mark] = of_slope(w, mark, j);
     }
     row[w->marks] = unknown == lv_global(w, LV_GAIN) ? 1.0 : 0.0;
@@ -96,11 +94,11 @@ static void weigh(const lv_work *w, int32_t unknown, double *row)
 }
 
 /* The rows of the weights of a group, with what the front has of them. */
-static void take_rows(const lv_work *w, int32_t group, int32_t columns)
+static void take_rows(lv_work *w, int32_t group, int32_t columns)
 {
     for (int32_t p = 0; p < LV_PIVOTS; p++) {
         int32_t place = group * LV_PIVOTS + p, pivot = w->pivots[place];
-        double *row = w->rows_of + p * columns;
+        double *row = w->rows_of + lv_at(p, columns);
         if (place < w->unknowns)
             weigh(w, w->order[place], row);
         for (int32_t i = 0; i < columns; i++)
@@ -109,11 +107,11 @@ static void take_rows(const lv_work *w, int32_t group, int32_t columns)
 }
 
 /* Divide them by L among each other. */
-static void divide_rows(const lv_work *w, int32_t group, int32_t columns)
+static void divide_rows(lv_work *w, int32_t group, int32_t columns)
 {
-    const int32_t *pivots = w->pivots + group * LV_PIVOTS;
+    const int32_t *pivots = w->pivots + lv_at(group, LV_PIVOTS);
     for (int32_t p = 0; p < LV_PIVOTS; p++) {
-        const double *panel = w->panel + p * w->width, *row = w->rows_of + p * columns;
+        const double *panel = w->panel + lv_at(p, w->width), *row = w->rows_of + lv_at(p, columns);
         for (int32_t later = p + 1; later < LV_PIVOTS; later++) {
             double share = pivots[later] >= 0 ? panel[pivots[later]] / w->diagonal[p] : 0.0;
             for (int32_t i = 0; i < columns; i++)
@@ -125,25 +123,25 @@ static void divide_rows(const lv_work *w, int32_t group, int32_t columns)
 }
 
 /* Leave to the others in the front what they have of the rows. */
-static void carry_on(const lv_work *w, int32_t group, int32_t columns)
+static void carry_on(lv_work *w, int32_t group, int32_t columns)
 {
-    const int32_t *pivots = w->pivots + group * LV_PIVOTS;
+    const int32_t *pivots = w->pivots + lv_at(group, LV_PIVOTS);
     for (int32_t i = 0; i < w->width; i++) {
         double shares[LV_PIVOTS];
         for (int32_t p = 0; p < LV_PIVOTS; p++)
             shares[p] = w->panel[p * w->width + i];
-        fr_lv_take_products(w->carried + i * columns, w->scaled_of, columns, shares, columns);
+        fr_lv_take_products(w->carried + lv_at(i, columns), w->scaled_of, columns, shares, columns);
     }
     for (int32_t p = 0; p < LV_PIVOTS; p++)
         for (int32_t i = 0; i < columns && pivots[p] >= 0; i++)
-            w->carried[pivots[p] * columns + i] = 0.0;
+            w->carried[lv_at(pivots[p], columns) + (size_t)i] = 0.0;
 }
 
 /* Add the products with itself, with gain and with grade of every column. */
-static void add_products(const lv_work *w, int32_t columns)
+static void add_products(lv_work *w, int32_t columns)
 {
     for (int32_t p = 0; p < LV_PIVOTS; p++) {
-        const double *row = w->rows_of + p * columns, *scaled = w->scaled_of + p * columns;
+        const double *row = w->rows_of + lv_at(p, columns), *scaled = w->scaled_of + lv_at(p, columns);
         for (int32_t i = 0; i < columns; i++) {
             w->with[3 * i] += row[i] * scaled[i];
             w->with[3 * i + 1] += row[i] * scaled[columns - 2];
@@ -174,7 +172,7 @@ static int find_products(lv_work *w, int32_t columns)
 /* Widen by a gain and a grade that are off by more than the rows know. */
 static void widen_by_doubts(lv_work *w, double gain, int32_t columns)
 {
-    const double *of_gain = w->with + 3 * (columns - 2), *of_grade = of_gain + 3;
+    const double *of_gain = w->with + lv_at(columns - 2, 3), *of_grade = of_gain + 3;
     double grade = fmin(TOGETHER * sqrt(of_grade[2]), GRADE_DOUBT);
     for (int32_t mark = 0; mark < w->marks; mark++) {
         double by_gain = gain * w->with[3 * mark + 1] / of_gain[1];

@@ -11,12 +11,12 @@
 #include "level_work.h"
 
 /* Add the products of the values of each row that comes with the group. */
-static void add_squares(const lv_work *w, int32_t group)
+static void add_squares(lv_work *w, int32_t group)
 {
     for (int32_t r = w->bounds[group]; r < w->bounds[group + 1]; r++) {
         int32_t begin = w->start[w->by_group[r]], end = w->start[w->by_group[r] + 1];
         for (int32_t a = begin; a < end; a++) {
-            double *row = w->front + (size_t)w->slot[w->column[a]] * (size_t)w->width;
+            double *row = w->front + lv_at(w->slot[w->column[a]], w->width);
             for (int32_t b = begin; b <= a; b++)
                 row[w->slot[w->column[b]]] += w->value[a] * w->value[b];
         }
@@ -24,7 +24,7 @@ static void add_squares(const lv_work *w, int32_t group)
 }
 
 /* Move the row of the pivot from the front to the panel. */
-static void take_pivot(const lv_work *w, int32_t pivot, double *panel)
+static void take_pivot(lv_work *w, int32_t pivot, double *panel)
 {
     size_t width = (size_t)w->width, q = (size_t)pivot;
     for (size_t i = 0; i <= q; i++) {
@@ -37,10 +37,10 @@ static void take_pivot(const lv_work *w, int32_t pivot, double *panel)
     }
 }
 
-static void take_panel(const lv_work *w, const int32_t *pivots, double *panel)
+static void take_panel(lv_work *w, const int32_t *pivots, double *panel)
 {
     for (int32_t p = 0; p < LV_PIVOTS; p++) {
-        double *row = panel + p * w->width;
+        double *row = panel + lv_at(p, w->width);
         if (pivots[p] >= 0)
             take_pivot(w, pivots[p], row);
         for (int32_t i = 0; pivots[p] < 0 && i < w->width; i++)
@@ -49,19 +49,19 @@ static void take_panel(const lv_work *w, const int32_t *pivots, double *panel)
 }
 
 /* Take what the scaled pivot leaves from a later one of its group. */
-static void take_share(double *restrict later, const double *restrict scaled, double share, int32_t n)
+static void take_share(double *later, const double *scaled, double share, int32_t n)
 {
     for (int32_t i = 0; i < n; i++)
         later[i] -= share * scaled[i];
 }
 
 /* Eliminate the pivots of a group from each other; 0 unless all are finite and above 0. */
-static int eliminate(const lv_work *w, const int32_t *pivots, double *panel, double *diagonal)
+static int eliminate(lv_work *w, const int32_t *pivots, double *panel, double *diagonal)
 {
     int32_t n = w->width;
     for (int32_t p = 0; p < LV_PIVOTS; p++) {
         int32_t q = pivots[p] >= 0 ? pivots[p] : 0;
-        double *row = panel + p * n, *scaled = w->scaled + p * n;
+        double *row = panel + lv_at(p, n), *scaled = w->scaled + lv_at(p, n);
         diagonal[p] = pivots[p] >= 0 ? row[q] : 1.0;
         if (!(diagonal[p] > 0.0 && diagonal[p] < LV_INFINITE))
             return 0;
@@ -70,7 +70,7 @@ static int eliminate(const lv_work *w, const int32_t *pivots, double *panel, dou
             scaled[i] = row[i] * (1.0 / sqrt(diagonal[p]));
         for (int32_t later = p + 1; later < LV_PIVOTS; later++) {
             double share = pivots[later] >= 0 ? scaled[pivots[later]] : 0.0;
-            take_share(panel + later * n, scaled, share, n);
+            take_share(panel + lv_at(later, n), scaled, share, n);
             panel[later * n + q] = 0.0;
         }
     }
@@ -78,7 +78,7 @@ static int eliminate(const lv_work *w, const int32_t *pivots, double *panel, dou
 }
 
 /* The pivots are no part of what they leave to the others. */
-static void clear_pivots(const lv_work *w, const int32_t *pivots)
+static void clear_pivots(lv_work *w, const int32_t *pivots)
 {
     for (int32_t later = 0; later < LV_PIVOTS; later++)
         for (int32_t p = 0; p < LV_PIVOTS; p++)
@@ -86,12 +86,12 @@ static void clear_pivots(const lv_work *w, const int32_t *pivots)
 }
 
 /* Take all rows of `s`, each times its share, from a row of `count`: one sum for each place. */
-void fr_lv_take_products(double *restrict out, const double *restrict s, int32_t stride,
+void fr_lv_take_products(double *out, const double *s, int32_t stride,
                          const double *shares, int32_t count)
 {
     double c0 = shares[0], c1 = shares[1], c2 = shares[2], c3 = shares[3];
     double c4 = shares[4], c5 = shares[5], c6 = shares[6], c7 = shares[7];
-    const double *s4 = s + 4 * stride;
+    const double *s4 = s + lv_at(4, stride);
     for (int32_t i = 0; i < count; i++) {
         double first = c0 * s[i] + c1 * s[i + stride] + c2 * s[i + 2 * stride] + c3 * s[i + 3 * stride];
         out[i] -= first + (c4 * s4[i] + c5 * s4[i + stride] + c6 * s4[i + 2 * stride] +
@@ -99,7 +99,7 @@ void fr_lv_take_products(double *restrict out, const double *restrict s, int32_t
     }
 }
 
-static void subtract(const lv_work *w)
+static void subtract(lv_work *w)
 {
     for (int32_t a = 0; a < w->width; a++) {
         double shares[LV_PIVOTS];
@@ -109,13 +109,13 @@ static void subtract(const lv_work *w)
             any |= shares[p] != 0.0;
         }
         if (any != 0)
-            fr_lv_take_products(w->front + (size_t)a * (size_t)w->width, w->scaled, w->width, shares, a + 1);
+            fr_lv_take_products(w->front + lv_at(a, w->width), w->scaled, w->width, shares, a + 1);
     }
 }
 
-int fr_lv_eliminate_group(const lv_work *w, int32_t group, double *panel, double *diagonal)
+int fr_lv_eliminate_group(lv_work *w, int32_t group, double *panel, double *diagonal)
 {
-    const int32_t *pivots = w->pivots + group * LV_PIVOTS;
+    const int32_t *pivots = w->pivots + lv_at(group, LV_PIVOTS);
     add_squares(w, group);
     take_panel(w, pivots, panel);
     if (!eliminate(w, pivots, panel, diagonal))
@@ -137,16 +137,16 @@ int fr_lv_factor(lv_work *w)
     size_t panel = (size_t)w->width * LV_PIVOTS;
     clear(w->front, (size_t)w->width * (size_t)w->width);
     for (int32_t g = 0; g < w->groups; g++)
-        if (!fr_lv_eliminate_group(w, g, w->panel + (size_t)g * panel, w->diagonal + g * LV_PIVOTS))
+        if (!fr_lv_eliminate_group(w, g, w->panel + (size_t)g * panel, w->diagonal + lv_at(g, LV_PIVOTS)))
             return 0;
     return 1;
 }
 
-static void solve_forward(const lv_work *w, double *x)
+static void solve_forward(lv_work *w, double *x)
 {
     clear(w->scaled, (size_t)w->width);
     for (int32_t k = 0; k < w->groups * LV_PIVOTS; k++) {
-        const double *row = w->panel + (size_t)k * (size_t)w->width;
+        const double *row = w->panel + lv_at(k, w->width);
         int32_t q = w->pivots[k] >= 0 ? w->pivots[k] : 0;
         x[k] += w->scaled[q];
         w->scaled[q] = 0.0;
@@ -154,11 +154,11 @@ static void solve_forward(const lv_work *w, double *x)
     }
 }
 
-static void solve_back(const lv_work *w, double *x)
+static void solve_back(lv_work *w, double *x)
 {
     clear(w->scaled, (size_t)w->width);
     for (int32_t k = w->groups * LV_PIVOTS - 1; k >= 0; k--) {
-        const double *row = w->panel + (size_t)k * (size_t)w->width;
+        const double *row = w->panel + lv_at(k, w->width);
         double sums[LV_SLOTS] = {0.0, 0.0, 0.0, 0.0};
         for (int32_t i = 0; i < w->width; i += LV_SLOTS)
             for (int32_t s = 0; s < LV_SLOTS; s++)
@@ -169,7 +169,7 @@ static void solve_back(const lv_work *w, double *x)
 }
 
 /* The solution as the factors alone give it. */
-static void solve_once(const lv_work *w, const double *right, double *x)
+static void solve_once(lv_work *w, const double *right, double *x)
 {
     clear(w->key, (size_t)w->groups * LV_PIVOTS);
     for (int32_t i = 0; i < w->unknowns; i++)

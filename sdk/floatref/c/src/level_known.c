@@ -13,9 +13,9 @@ static void know_vehicle(lv_work *w)
     double omega = 2.0 * FR_PI * w->config->pitch_hz, squared = LV_GYRATION * LV_GYRATION;
     double stiffness = log(0.5 * omega * omega * squared);
     double damping = log(w->config->pitch_damping * omega * squared);
-    double means[] = {w->config->gain, w->config->lean_rad, LV_CENTRE, stiffness,
+    const double means[] = {w->config->gain, w->config->lean_rad, LV_CENTRE, stiffness,
                       stiffness,       damping,             damping,   log(LV_GYRATION)};
-    double sigmas[] = {w->config->gain_sigma, w->config->lean_sigma_rad, LV_CENTRE_SIGMA,
+    const double sigmas[] = {w->config->gain_sigma, w->config->lean_sigma_rad, LV_CENTRE_SIGMA,
                        LV_STIFFNESS_SIGMA,    LV_STIFFNESS_SIGMA,        LV_DAMPING_SIGMA,
                        LV_DAMPING_SIGMA,      LV_GYRATION_SIGMA};
     for (int32_t i = 0; i < LV_GLOBALS; i++) {
@@ -26,8 +26,8 @@ static void know_vehicle(lv_work *w)
 
 void fr_lv_prior(const lv_work *w, int32_t which, int32_t *column, double *mean, double *sigma)
 {
-    int32_t first[] = {lv_in_time(w, LV_BIAS), lv_in_time(w, LV_OFFSET), lv_in_time(w, LV_MOMENT), 0};
-    double sigmas[] = {w->config->bias, LV_OFFSET_M, LV_MOMENT_SIGMA, LV_START_M};
+    const int32_t first[] = {lv_in_time(w, LV_BIAS), lv_in_time(w, LV_OFFSET), lv_in_time(w, LV_MOMENT), 0};
+    const double sigmas[] = {w->config->bias, LV_OFFSET_M, LV_MOMENT_SIGMA, LV_START_M};
     if (which < 4) {
         *column = first[which];
         *mean = 0.0;
@@ -51,7 +51,7 @@ static int32_t count_read(const lv_work *w)
 static void count_rows(lv_work *w)
 {
     int32_t K = w->nodes, N = w->points;
-    int32_t counts[LV_GROUPS] = {K - 1, K, K, LV_PRIOR, N - 1, N, N - 1, count_read(w), K - 1, K - 1,
+    const int32_t counts[LV_GROUPS] = {K - 1, K, K, LV_PRIOR, N - 1, N, N - 1, count_read(w), K - 1, K - 1,
                                  w->middles, w->middles, w->middles, 0};
     w->begin[0] = 0;
     for (int32_t group = 0; group < LV_GROUPS; group++)
@@ -88,8 +88,8 @@ static void fix_sensors(lv_work *w)
     double known = square(w->config->acceleration), missed = square(w->config->missing_acceleration);
     for (int32_t k = 0; k < w->nodes; k++) {
         double between_m = fmin(w->speed[k] * w->interval_s, LV_SPACING_M);
-        if (w->height[k] == w->height[k])
-            *read++ = sqrt(square(LV_READING_M) + w->config->road_m * between_m / 3.0);
+        *read = sqrt(square(LV_READING_M) + w->config->road_m * between_m / 3.0);
+        read += w->height[k] == w->height[k] ? 1 : 0;
     }
     for (int32_t m = 0; m < w->middles; m++) {
         const double *share = w->missing + w->middle[m];
@@ -141,8 +141,9 @@ static double sag_sigma(const lv_work *w, int32_t k, int first)
 /* What is held while a pass finds the unknowns. */
 void fr_lv_hold(lv_work *w, double loose, int first)
 {
-    lv_car car = fr_lv_car(w, w->y);
+    lv_car car;
     double *sags = w->sigma + w->begin[LV_SAGS], *turns = w->sigma + w->begin[LV_TURNS];
+    fr_lv_set_car(w, w->y, &car);
     fr_lv_press(w, &car, w->y);
     for (int32_t j = 0; j + 1 < w->points; j++)
         w->sigma[w->begin[LV_BENDS] + j] = sqrt(w->bends[j] * LV_SPACING_M);

@@ -8,7 +8,7 @@
 #include "level_work.h"
 #include "samples.h"
 
-#define MOST_STEP_S 0.03
+#define MOST_STEP_S 0.06
 #define LEAST_STEP_S 0.002
 #define MOST_S 600.0
 #define MOST_TRAVEL_M 10000.0

@@ -48,8 +48,10 @@ static void miss_heights(lv_work *w, const double *y)
         const lv_strip *strip = &w->strip[LV_LASER][k];
         double lever = w->config->lever_m - LV_SWAY_M * lv_passed(strip, y + w->points);
         double body = height[k] + lever * pitch[k];
-        if (w->height[k] == w->height[k])
-            miss(w, row++, w->height[k] - (body - lv_passed(strip, y)));
+        if (w->height[k] == w->height[k]) {
+            miss(w, row, w->height[k] - (body - lv_passed(strip, y)));
+            row++;
+        }
     }
 }
 
@@ -72,7 +74,8 @@ static void miss_forces(lv_work *w, const double *y)
 
 static void miss_springs(lv_work *w, const double *y)
 {
-    lv_car car = fr_lv_car(w, y);
+    lv_car car;
+    fr_lv_set_car(w, y, &car);
     fr_lv_press(w, &car, y);
     for (int32_t at = 0; at < w->middles; at++) {
         miss(w, w->begin[LV_BOUNCES] + at, -fr_lv_bounce(w, &car, y, w->middle[at]));

@@ -42,7 +42,8 @@ void fr_lv_lay_known(lv_work *w)
     for (int32_t j = LV_SIDE; j + LV_SIDE < w->points; j++) {
         if (near[j - LV_SIDE] + near[j] + near[j + LV_SIDE] == 0) {
             w->sigma[w->begin[LV_KNOWN] + count] = KNOWN_M;
-            w->middle_of[count++] = j;
+            w->middle_of[count] = j;
+            count++;
         }
     }
     w->rows = w->begin[LV_KNOWN] + count;
@@ -59,7 +60,8 @@ double fr_lv_turn(lv_work *w)
     for (int32_t k = 0; k < w->nodes; k++) {
         if (count == 0 || w->place[k] > places[count - 1]) {
             places[count] = w->place[k];
-            slopes[count++] = w->beta[k];
+            slopes[count] = w->beta[k];
+            count++;
         }
     }
     for (int32_t k = 0; k < w->nodes; k++) {

@@ -78,8 +78,11 @@ static void group_rows(lv_work *w)
         w->bounds[group_of(w, row) + 1]++;
     for (int32_t g = 0; g < w->groups; g++)
         w->bounds[g + 1] += w->bounds[g];
-    for (int32_t row = 0; row < w->rows; row++)
-        w->by_group[w->bounds[group_of(w, row)]++] = row;
+    for (int32_t row = 0; row < w->rows; row++) {
+        int32_t *next = w->bounds + group_of(w, row);
+        w->by_group[*next] = row;
+        *next += 1;
+    }
     for (int32_t g = w->groups; g > 0; g--)
         w->bounds[g] = w->bounds[g - 1];
     w->bounds[0] = 0;
@@ -133,8 +136,11 @@ static void sort_entries(lv_work *w)
         keys[w->enters[i] + 1]++;
     for (int32_t g = 0; g < w->groups; g++)
         keys[g + 1] += keys[g];
-    for (int32_t place = 0; place < w->unknowns; place++)
-        entering[keys[w->enters[w->order[place]]]++] = w->order[place];
+    for (int32_t place = 0; place < w->unknowns; place++) {
+        int32_t *next = keys + w->enters[w->order[place]];
+        entering[*next] = w->order[place];
+        *next += 1;
+    }
     for (int32_t g = w->groups; g > 0; g--)
         keys[g] = keys[g - 1];
     keys[0] = 0;

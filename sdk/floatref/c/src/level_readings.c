@@ -40,13 +40,14 @@ static double mean_force(const double *x, int32_t count, int32_t k, int32_t ever
 
 static void read_node(lv_work *w, const fr_level_bins *bins, size_t at, double number)
 {
-    int32_t k = w->nodes++, every = w->every;
+    int32_t k = w->nodes, every = w->every;
     w->bin[k] = number + 0.5 * (double)(every - 1);
     w->height[k] = mean_known(bins->height + at, every);
     w->place[k] = mean_known(bins->distance + at, every);
     w->speed[k] = mean_known(bins->speed + at, every);
     w->along[k] = mean_known(bins->along + at, every);
     w->missing[k] = mean_known(bins->missing + at, every);
+    w->nodes++;
 }
 
 /* The nodes of `count` bins that follow each other. */
@@ -72,9 +73,10 @@ static void find_middles(lv_work *w)
 {
     double near = 1.5 * w->interval_s;
     w->middles = 0;
-    for (int32_t k = 1; k + 1 < w->nodes; k++)
-        if (w->pause[k] < near && w->pause[k + 1] < near)
-            w->middle[w->middles++] = k;
+    for (int32_t k = 1; k + 1 < w->nodes; k++) {
+        w->middle[w->middles] = k;
+        w->middles += w->pause[k] < near && w->pause[k + 1] < near ? 1 : 0;
+    }
 }
 
 int32_t fr_lv_read(lv_work *w, const fr_level_bins *bins)

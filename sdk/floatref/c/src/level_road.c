@@ -15,8 +15,9 @@
 /* Merge `from` into `into`: both are in order, and fill at most six points together. */
 static void merge_strips(lv_strip *into, const lv_strip *from)
 {
-    lv_strip sum = {0, {0}, {0.0}};
+    lv_strip sum;
     int32_t i = 0, j = 0;
+    sum.count = 0;
     while (i < into->count || j < from->count) {
         int own = j >= from->count || (i < into->count && into->column[i] <= from->column[j]);
         int other = i >= into->count || (j < from->count && from->column[j] <= into->column[i]);
@@ -35,7 +36,8 @@ static void leave_zeros(lv_strip *strip)
     for (int32_t i = 0; i < strip->count; i++) {
         if (strip->value[i] != 0.0) {
             strip->column[left] = strip->column[i];
-            strip->value[left++] = strip->value[i];
+            strip->value[left] = strip->value[i];
+            left++;
         }
     }
     strip->count = left;
@@ -47,7 +49,8 @@ static lv_strip between_points(const lv_work *w, double place)
     double at = (place - w->first_m) / LV_SPACING_M;
     double low = fmin(fmax(floor(at), 0.0), (double)(w->points - 2));
     int32_t first = (int32_t)low;
-    lv_strip found = {2, {first, first + 1, 0, 0, 0, 0}, {1.0 - (at - low), at - low, 0, 0, 0, 0}};
+    lv_strip found = {2, {first, first + 1, 0, 0, 0, 0},
+                      {1.0 - (at - low), at - low, 0.0, 0.0, 0.0, 0.0}};
     return found;
 }
 
@@ -107,8 +110,8 @@ static void sharpen(lv_work *w)
     double noise = 0.0;
     for (int32_t m = 0; m < w->middles; m++) {
         int32_t k = w->middle[m];
-        if (w->speed[k] >= LV_MOVING_MPS)
-            w->key[moving++] = fabs(lv_second(w, w->place, k) - lv_triple(w->along, k));
+        w->key[moving] = fabs(lv_second(w, w->place, k) - lv_triple(w->along, k));
+        moving += w->speed[k] >= LV_MOVING_MPS ? 1 : 0;
     }
     if (moving > 0)
         noise = NORMAL * median_of(w, w->key, moving) / NOISE_MPS2;

@@ -94,6 +94,17 @@ static void derive_height(lv_work *w, const double *y, int32_t k, int32_t number
     fr_lv_end_row(w, &row, number);
 }
 
+static void derive_heights(lv_work *w)
+{
+    int32_t row = w->begin[LV_READ];
+    for (int32_t k = 0; k < w->nodes; k++) {
+        if (w->height[k] == w->height[k]) {
+            derive_height(w, w->y, k, row);
+            row++;
+        }
+    }
+}
+
 static double tilt_of(const lv_work *w, const double *y, int32_t k)
 {
     return y[lv_in_time(w, LV_PITCH) + k] + y[lv_global(w, LV_LEAN)];
@@ -142,12 +153,9 @@ static void derive_known_outside(lv_work *w)
 /* Derivatives of all rows at the unknowns there are; `known` adds those outside of the brake. */
 void fr_lv_derive(lv_work *w, int known)
 {
-    int32_t read = w->begin[LV_READ];
     w->start[0] = 0;
     derive_known_before(w);
-    for (int32_t k = 0; k < w->nodes; k++)
-        if (w->height[k] == w->height[k])
-            derive_height(w, w->y, k, read++);
+    derive_heights(w);
     derive_steps(w, LV_SAGS, lv_in_time(w, LV_OFFSET), w->nodes);
     derive_steps(w, LV_TURNS, lv_in_time(w, LV_MOMENT), w->nodes);
     for (int32_t at = 0; at < w->middles; at++)

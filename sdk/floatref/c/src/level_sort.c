@@ -9,10 +9,10 @@ static void merge_runs(const int32_t *from, int32_t *into, const double *keys, i
 {
     int32_t i = 0, j = middle;
     for (int32_t k = 0; k < end; k++) {
-        if (j >= end || (i < middle && keys[from[i]] <= keys[from[j]]))
-            into[k] = from[i++];
-        else
-            into[k] = from[j++];
+        int first = j >= end || (i < middle && keys[from[i]] <= keys[from[j]]);
+        into[k] = from[first != 0 ? i : j];
+        i += first != 0 ? 1 : 0;
+        j += first != 0 ? 0 : 1;
     }
 }
 

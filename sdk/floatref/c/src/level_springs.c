@@ -25,22 +25,20 @@ static void spring(const lv_work *w, lv_car *car, int32_t axle, const double *gl
     car->shares[axle][2] = car->stiffness[axle] * LV_SHARE + car->damping[axle] * rate;
 }
 
-lv_car fr_lv_car(const lv_work *w, const double *y)
+void fr_lv_set_car(const lv_work *w, const double *y, lv_car *car)
 {
-    lv_car car;
     const double *globals = y + lv_global(w, 0);
     double length = wheelbase_of(w), place = globals[LV_PLACE], soft;
     double radius = 0.5 * length * exp(globals[LV_TURNING]);
-    spring(w, &car, 0, globals);
-    spring(w, &car, 1, globals);
-    soft = car.soft[0] + car.soft[1];
-    car.centre_m = car.ahead_m[0] - place * length;
-    car.by[0] = place * length / (radius * radius);
-    car.by[1] = -(1.0 - place) * length / (radius * radius);
-    car.moment = globals[LV_GAIN] * length * length / (radius * radius * soft);
-    car.soft[0] /= soft;
-    car.soft[1] /= soft;
-    return car;
+    spring(w, car, 0, globals);
+    spring(w, car, 1, globals);
+    soft = car->soft[0] + car->soft[1];
+    car->centre_m = car->ahead_m[0] - place * length;
+    car->by[0] = place * length / (radius * radius);
+    car->by[1] = -(1.0 - place) * length / (radius * radius);
+    car->moment = globals[LV_GAIN] * length * length / (radius * radius * soft);
+    car->soft[0] /= soft;
+    car->soft[1] /= soft;
 }
 
 /* The compression of both springs, the slope under the wheels, and what pitches beside it. */
@@ -141,28 +139,50 @@ static void add_springs(const lv_work *w, lv_row *row, const lv_car *car, int32_
         lv_add(row, lv_global(w, LV_DAMP_FRONT + axle), -by[axle] * damped(w, car, axle, k));
 }
 
+/* What a node's height, pitch and offset have in a row, by pushes of both axles at it. */
+static void set_body(const lv_car *car, double front, double rear, double *body)
+{
+    body[0] = front + rear;
+    body[1] = car->ahead_m[0] * front + car->ahead_m[1] * rear;
+    body[2] = -(front + rear);
+}
+
+static void add_body(const lv_work *w, lv_row *row, int32_t k, double body[3][3])
+{
+    add_three(w, row, LV_HEIGHT, k, body[0]);
+    add_three(w, row, LV_PITCH, k, body[1]);
+    add_three(w, row, LV_OFFSET, k, body[2]);
+}
+
+static void set_seconds(const lv_work *w, double *seconds)
+{
+    double step = w->interval_s * w->interval_s;
+    seconds[0] = 1.0 / step;
+    seconds[1] = -2.0 / step;
+    seconds[2] = 1.0 / step;
+}
+
 static void derive_bounce(lv_work *w, const lv_car *car, const double *y, int32_t at)
 {
-    const double both[2] = {1.0, 1.0}, seconds[3] = {1.0, -2.0, 1.0};
-    double step = w->interval_s * w->interval_s, height[3], pitch[3], offset[3], heave[3];
+    const double both[2] = {1.0, 1.0};
+    double parts[3], seconds[3], body[3][3], heave[3];
     int32_t k = w->middle[at];
     lv_row row;
     row.count = 0;
+    set_seconds(w, seconds);
     for (int32_t i = 0; i < 3; i++) {
-        double front = car->shares[0][i], rear = car->shares[1][i], second = seconds[i] / step;
-        height[i] = second + (front + rear);
-        pitch[i] = car->centre_m * second + (car->ahead_m[0] * front + car->ahead_m[1] * rear);
-        offset[i] = -(front + rear);
-        heave[i] = -second;
+        set_body(car, car->shares[0][i], car->shares[1][i], parts);
+        body[0][i] = seconds[i] + parts[0];
+        body[1][i] = car->centre_m * seconds[i] + parts[1];
+        body[2][i] = parts[2];
+        heave[i] = -seconds[i];
     }
     subtract_road(w, &row, 0, k, car->shares[0]);
     subtract_road(w, &row, 1, k, car->shares[1]);
-    add_three(w, &row, LV_HEIGHT, k, height);
-    add_three(w, &row, LV_PITCH, k, pitch);
-    add_three(w, &row, LV_OFFSET, k, offset);
+    add_body(w, &row, k, body);
+    add_three(w, &row, LV_HEAVE, k, heave);
     lv_add(&row, lv_global(w, LV_PLACE), -wheelbase_of(w) * lv_second(w, y + lv_in_time(w, LV_PITCH), k));
     add_springs(w, &row, car, k, both, 0.0);
-    add_three(w, &row, LV_HEAVE, k, heave);
     fr_lv_end_row(w, &row, w->begin[LV_BOUNCES] + at);
 }
 
@@ -179,38 +199,47 @@ static void add_turns(const lv_work *w, lv_row *row, const lv_car *car, const do
     add_springs(w, row, car, k, car->by, turned);
 }
 
+/* The road under both axles: it presses the springs, and its slope pitches the body. */
+static void subtract_both_roads(const lv_work *w, lv_row *row, const lv_car *car, int32_t k)
+{
+    const double means[3] = {LV_SHARE, LV_MIDDLE, LV_SHARE};
+    double grade = LV_GRAVITY * car->moment / wheelbase_of(w), front[3], rear[3];
+    for (int32_t i = 0; i < 3; i++) {
+        front[i] = car->by[0] * car->shares[0][i] + grade * means[i];
+        rear[i] = car->by[1] * car->shares[1][i] - grade * means[i];
+    }
+    subtract_road(w, row, 0, k, front);
+    subtract_road(w, row, 1, k, rear);
+}
+
 static void derive_pitch(lv_work *w, const lv_car *car, const double *y, int32_t at)
 {
-    const double seconds[3] = {1.0, -2.0, 1.0}, means[3] = {LV_SHARE, LV_MIDDLE, LV_SHARE};
-    double step = w->interval_s * w->interval_s, road[2][3], parts[5][3];
-    double grade = LV_GRAVITY * car->moment / wheelbase_of(w);
+    const double moment[3] = {-car->moment * LV_SHARE, -car->moment * LV_MIDDLE,
+                              -car->moment * LV_SHARE};
+    double parts[3], seconds[3], body[3][3], nod[3];
     int32_t k = w->middle[at];
     lv_row row;
     row.count = 0;
+    set_seconds(w, seconds);
     for (int32_t i = 0; i < 3; i++) {
-        double front = car->by[0] * car->shares[0][i], rear = car->by[1] * car->shares[1][i];
-        road[0][i] = front + grade * means[i];
-        road[1][i] = rear - grade * means[i];
-        parts[0][i] = front + rear;
-        parts[1][i] = seconds[i] / step + car->ahead_m[0] * front + car->ahead_m[1] * rear;
-        parts[2][i] = -front - rear;
-        parts[3][i] = -(seconds[i] / step);
-        parts[4][i] = -car->moment * means[i];
+        set_body(car, car->by[0] * car->shares[0][i], car->by[1] * car->shares[1][i], parts);
+        body[0][i] = parts[0];
+        body[1][i] = seconds[i] + parts[1];
+        body[2][i] = parts[2];
+        nod[i] = -seconds[i];
     }
-    subtract_road(w, &row, 0, k, road[0]);
-    subtract_road(w, &row, 1, k, road[1]);
-    add_three(w, &row, LV_HEIGHT, k, parts[0]);
-    add_three(w, &row, LV_PITCH, k, parts[1]);
-    add_three(w, &row, LV_OFFSET, k, parts[2]);
-    add_three(w, &row, LV_NOD, k, parts[3]);
-    add_three(w, &row, LV_MOMENT, k, parts[4]);
+    subtract_both_roads(w, &row, car, k);
+    add_body(w, &row, k, body);
+    add_three(w, &row, LV_NOD, k, nod);
+    add_three(w, &row, LV_MOMENT, k, moment);
     add_turns(w, &row, car, y, at);
     fr_lv_end_row(w, &row, w->begin[LV_PITCHES] + at);
 }
 
 void fr_lv_derive_springs(lv_work *w, const double *y)
 {
-    lv_car car = fr_lv_car(w, y);
+    lv_car car;
+    fr_lv_set_car(w, y, &car);
     fr_lv_press(w, &car, y);
     for (int32_t at = 0; at < w->middles; at++)
         derive_bounce(w, &car, y, at);

@@ -87,6 +87,12 @@ static inline double lv_triple(const double *x, int32_t k)
     return LV_SHARE * x[k - 1] + LV_MIDDLE * x[k] + LV_SHARE * x[k + 1];
 }
 
+/* Where a row of a matrix of so many columns begins. */
+static inline size_t lv_at(int32_t row, int32_t columns)
+{
+    return (size_t)row * (size_t)columns;
+}
+
 static inline int32_t lv_in_time(const lv_work *w, int32_t name)
 {
     return 2 * w->points + name * w->nodes;
@@ -140,7 +146,7 @@ void fr_lv_find_misfits(lv_work *w, const double *y, double *sum);
 void fr_lv_derive(lv_work *w, int known);
 void fr_lv_end_row(lv_work *w, lv_row *row, int32_t number);
 
-lv_car fr_lv_car(const lv_work *w, const double *y);
+void fr_lv_set_car(const lv_work *w, const double *y, lv_car *car);
 void fr_lv_press(lv_work *w, const lv_car *car, const double *y);
 double fr_lv_bounce(const lv_work *w, const lv_car *car, const double *y, int32_t k);
 double fr_lv_pitch(const lv_work *w, const lv_car *car, const double *y, int32_t at);
@@ -150,14 +156,14 @@ void fr_lv_derive_springs(lv_work *w, const double *y);
 int fr_lv_plan(lv_work *w, int32_t most_width);
 int fr_lv_factor(lv_work *w);
 void fr_lv_solve(lv_work *w, const double *right, double *x);
-int fr_lv_eliminate_group(const lv_work *w, int32_t group, double *panel, double *diagonal);
+int fr_lv_eliminate_group(lv_work *w, int32_t group, double *panel, double *diagonal);
 
 int32_t fr_lv_fit(lv_work *w, double *changed);
 double fr_lv_prior_misfit(const lv_work *w);
 double fr_lv_grade(const lv_work *w);
 
 /* Put shares of the rows of `s` out of a row: see level_fronts.c. */
-void fr_lv_take_products(double *restrict out, const double *restrict s, int32_t stride,
+void fr_lv_take_products(double *out, const double *s, int32_t stride,
                          const double *shares, int32_t count);
 
 /* 1-sigma in `found` at the `marks`; 0 if it is lost in rounding or has no room. */
