@@ -581,6 +581,64 @@ FR_API fr_status fr_level_fit(const fr_level_fit_config *config, void *memory, s
                               const fr_level_bins *bins, fr_level_result *result, double *pitch,
                               double *sigma_m, size_t capacity, size_t *written);
 
+/* ---------------------------------------------------------------------------------------------
+ * The same as samples come: bins of about 10 ms, the stretches in which the vehicle brakes, stands
+ * or sets off with the road before and behind, and a fit of each. What comes out is for bins: what
+ * has to be added to every force, and the pitch by which heights are carried to the accelerometer.
+ *
+ * Away from brakes a bin is ready when the vehicle has gone on for 60 m, or has moved for 30 s. At a
+ * brake it waits until the stretch ends, 90 m behind it, and has gone on for as much. The middle of
+ * a standstill is left out, so one of any length takes constant memory. A stretch of more than
+ * fit.longest_s or fit.most_travel_m is fitted in windows that share 20 s. Where a fit is not found
+ * the outcome says why, the share is 0 and the 1-sigma is 0.05 m.
+ *
+ * A push makes the fits of the stretches that end in it, each of 0.1 to 2 s on a PC.
+ */
+typedef struct fr_level_config {
+    double rate_hz;          /* samples per second, at least 20; no default */
+    double metres_per_count; /* of the encoder, at most 10; no default */
+    fr_level_fit_config fit; /* its step follows from the rate */
+    int32_t paths;           /* wheel paths, 1 to 4; 2 */
+    int32_t back;            /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
+    int32_t missing;         /* FR_MISSING_REFUSED, or FR_MISSING_BRIDGED: it does not count in its
+                                bin, and a bin of which more than half is missing is not known */
+    int32_t reserved;        /* 0 */
+} fr_level_config;
+
+/* No brake: the bin is in no stretch. Beside FR_LEVEL_FOUND and so on. */
+enum { FR_LEVEL_NO_BRAKE = -1 };
+
+/* Its middle is at sample `first` + (every - 1) / 2 of the run. Between bins all are linear in time,
+ * also across those that are left out in a standstill. */
+typedef struct fr_level_bin {
+    int64_t first;    /* its first sample */
+    double added;     /* to every force, in m/s^2 */
+    double sin_pitch; /* a height is less by this times the lever of its laser */
+    double share;     /* to which it is levelled, 0 to 1 */
+    double sigma_m;   /* 1-sigma of the high-passed elevation that this leaves */
+    int32_t outcome;  /* FR_LEVEL_NO_BRAKE to FR_LEVEL_UNLIKELY: the worst of its fits */
+    int32_t reserved; /* 0 */
+} fr_level_bin;
+
+typedef struct fr_level fr_level;
+
+FR_API fr_level_config fr_level_defaults(void);
+FR_API size_t fr_level_size(const fr_level_config *config);
+FR_API fr_status fr_level_init(void *memory, size_t size, const fr_level_config *config,
+                               fr_level **out);
+/* Samples of a bin. */
+FR_API fr_status fr_level_every(const fr_level *level, int64_t *every);
+/* `force` with 1 g in it, in m/s^2, and `height` in m, down to the road, of all wheel paths of a
+ * sample, then of the next: count * paths values. At most 20 s at a time. FR_OUTPUT_FULL unless the
+ * bins that are ready are taken before: *ready is their number. */
+FR_API fr_status fr_level_push(fr_level *level, const fr_real *force, const fr_real *height,
+                               const int64_t *counts, size_t count, size_t *ready);
+/* End the run: all bins become ready. */
+FR_API fr_status fr_level_finish(fr_level *level, size_t *ready);
+/* The bins that are ready, the first `capacity` of them, after the end too. */
+FR_API fr_status fr_level_take(fr_level *level, fr_level_bin *bins, size_t capacity,
+                               size_t *written);
+
 #ifdef __cplusplus
 }
 #endif

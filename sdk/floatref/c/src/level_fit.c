@@ -136,6 +136,16 @@ static void write_bins(lv_work *w, const fr_level_bins *bins, const fr_level_res
         sigma_m[i] = fr_lv_line(w->mark, w->found, w->marks, bins->distance[i]);
 }
 
+void fr_lv_fit_bins(lv_work *w, const fr_level_bins *bins, fr_level_result *result, double *pitch,
+                    double *sigma_m)
+{
+    (void)memset(result, 0, sizeof *result);
+    result->outcome = prepare(w, bins);
+    if (result->outcome == FR_LEVEL_FOUND)
+        keep_result(w, result);
+    write_bins(w, bins, result, pitch, sigma_m);
+}
+
 static fr_status check_memory(const void *memory, size_t size, size_t needed)
 {
     if (memory == NULL)
@@ -172,11 +182,7 @@ fr_status fr_level_fit(const fr_level_fit_config *config, void *memory, size_t s
         status = check_room(pitch, sigma_m, bins, capacity, written);
     if (status != FR_OK)
         return status;
-    (void)memset(result, 0, sizeof *result);
     (void)fr_lv_lay_out(&work, config, memory);
-    result->outcome = prepare(&work, bins);
-    if (result->outcome == FR_LEVEL_FOUND)
-        keep_result(&work, result);
-    write_bins(&work, bins, result, pitch, sigma_m);
+    fr_lv_fit_bins(&work, bins, result, pitch, sigma_m);
     return FR_OK;
 }

@@ -158,6 +158,10 @@ int fr_lv_factor(lv_work *w);
 void fr_lv_solve(lv_work *w, const double *right, double *x);
 int fr_lv_eliminate_group(lv_work *w, int32_t group, double *panel, double *diagonal);
 
+/* Fit bins that are in their ranges: see fr_level_fit(). */
+void fr_lv_fit_bins(lv_work *w, const fr_level_bins *bins, fr_level_result *result, double *pitch,
+                    double *sigma_m);
+
 int32_t fr_lv_fit(lv_work *w, double *changed);
 double fr_lv_prior_misfit(const lv_work *w);
 double fr_lv_grade(const lv_work *w);
