@@ -13,7 +13,7 @@
 
 #include "floatref.h"
 
-enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 20, CALLS = 32, KINDS = 13 };
+enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 23, CALLS = 37, KINDS = 14 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -29,12 +29,14 @@ typedef union any_config {
     fr_matched_high_pass_config matched_high_pass;
     fr_iri_config iri;
     fr_screening_config screening;
+    fr_level_config level;
 } any_config;
 
 typedef struct arrays {
     fr_real *x, *h, *f, *s, *y, *z;
     int64_t *n;
     fr_span *spans;
+    fr_level_bin *bins;
     size_t count, capacity, written;
 } arrays;
 
@@ -94,9 +96,81 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
         KIND(11, iri, c.interval_m = interval)
         KIND(12, screening, c.rate_hz = 250; c.metres_per_count = count_m;
              c.spread_mps2 = draw(2) * 0.1)
+        KIND(13, level, c.rate_hz = 20.0 + 20.0 * draw(2); c.metres_per_count = count_m;
+             c.fit.front_m = 1.5; c.fit.rear_m = -1.5; c.fit.longest_s = 40.0;
+             c.fit.most_travel_m = 200.0; c.fit.most_width = 16 + 8 * (int)draw(8);
+             c.paths = 1 + (int)draw(2); c.back = (int)draw(2); c.missing = (int)draw(2))
     default:
         return FR_BAD_CONFIG;
     }
+}
+
+static double *as_double(const fr_real *x, size_t count, double least, double most)
+{
+    double *y = malloc(count * sizeof *y + (count == 0));
+    for (size_t i = 0; i < count; i++)
+        y[i] = draw(2000) == 0 ? odd_number() : fmin(fmax((double)x[i], least), most);
+    return y;
+}
+
+/* A brake on a flat road, so that a fit is found. */
+static void calm(double *const *columns, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        double step = 0.05 * (double)i;
+        columns[0][i] = 1e-4 * fmin(fmax(columns[0][i], -20.0), 20.0);
+        columns[1][i] = 0.0;
+        columns[2][i] = 0.3 + 1e-6 * fmin(fmax(columns[2][i], -20.0), 20.0);
+        columns[4][i] = fmax(8.0 - step, 0.0);
+        columns[5][i] = step < 8.0 ? -1.0 : 0.0;
+    }
+}
+
+/* A fit of drawn bins in memory of exactly its size; a refused one may not change it. */
+static fr_status fit_bins(arrays *a)
+{
+    fr_level_fit_config c = fr_level_fit_defaults();
+    double *columns[6], *pitch = malloc((a->capacity + 1) * 2 * sizeof *pitch), at = 0.0;
+    fr_level_bins bins = {a->n, NULL, NULL, NULL, NULL, NULL, NULL, a->count};
+    fr_level_result result;
+    size_t size;
+    fr_status status;
+    void *memory;
+    c.step_s = draw(2) ? 0.05 : 0.02;
+    c.front_m = draw(2) ? 1.5 : 20.0;
+    c.rear_m = c.front_m - 3.0;
+    c.longest_s = draw(9) ? 12.0 : 2.0;
+    c.most_travel_m = draw(9) ? 100.0 : 1.0;
+    c.most_width = 16 + 8 * (int)draw(12);
+    size = fr_level_fit_size(&c);
+    memory = calloc(1, size);
+    for (int i = 0; i < 6; i++)
+        columns[i] = as_double(i % 2 ? a->h : a->x, a->count, i == 1 ? 0.0 : -1e9, i == 1 ? 1.0 : 1e9);
+    if (draw(2) == 0)
+        calm(columns, a->count);
+    for (size_t i = 0; i < a->count; i++) {
+        columns[3][i] = at += columns[4][i] * 0.02;
+        a->n[i] = i == 0 ? 0 : a->n[i - 1] + (draw(40) ? 1 : 1 + (int64_t)draw(1000));
+    }
+    bins.force = columns[0];
+    bins.missing = columns[1];
+    bins.height = columns[2];
+    bins.distance = columns[3];
+    bins.speed = columns[4];
+    bins.along = columns[5];
+    status = fr_level_fit(&c, memory, size, &bins, &result, pitch, pitch + a->capacity, a->capacity,
+                          &a->written);
+    for (int i = 0; i < 6; i++)
+        free(columns[i]);
+    free(pitch);
+    free(memory);
+    return status;
+}
+
+/* Two wheel paths are twice as many values: those of a push are half of its arrays. */
+static fr_status push_level(void *o, arrays *a)
+{
+    return fr_level_push(o, a->x, a->h, a->n, a->count / 2, &a->written);
 }
 
 /* One of the calls; it may be of another kind of object. */
@@ -107,6 +181,12 @@ static fr_status call(int which, void *o, arrays *a)
     fr_timer_distortion_config timer = {0.05, 3.576, 25.0};
     switch (which) {
     case 12: return fr_screening_push(o, a->x, draw(9) ? a->h : NULL, a->n, n, a->spans, room, w);
+    case 13: return push_level(o, a);
+    case 32: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
+    case 33: return fr_level_take(o, a->bins, room, w);
+    case 34: return fr_level_finish(o, w);
+    case 35: return fit_bins(a);
+    case 36: return fr_level_every(o, a->n);
     case 30: return fr_screening_finish(o, a->spans, room, w);
     case 31: return fr_high_pass_set_velocity(o, a->x, n, a->y, room, w);
     case 0: return fr_filter_push(o, a->x, n, a->y, room, w);
@@ -121,7 +201,6 @@ static fr_status call(int which, void *o, arrays *a)
     case 9: return fr_local_suppression_push(o, a->x, a->f, n, a->y, room, w);
     case 10: return fr_matched_high_pass_push(o, a->x, a->h, a->f, n, a->y, room, w);
     case 11: return fr_iri_push(o, a->x, n, a->y, room, w);
-    case 13: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
     case 14: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
     case 15: return fr_high_pass_set_finish(o);
     case 16: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
@@ -152,7 +231,7 @@ static fr_real *drawn_reals(size_t count)
 
 static arrays drawn_arrays(int64_t *counts)
 {
-    arrays a = {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, draw(4) ? draw(MOST) : draw(3), 0, 0};
+    arrays a = {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, draw(4) ? draw(MOST) : draw(3), 0, 0};
     a.capacity = draw(6) ? POINTS : draw(MOST);
     a.x = drawn_reals(a.count);
     a.h = drawn_reals(a.count);
@@ -160,6 +239,7 @@ static arrays drawn_arrays(int64_t *counts)
     a.s = drawn_reals(a.count);
     a.y = drawn_reals(a.capacity);
     a.z = drawn_reals(a.capacity);
+    a.bins = malloc(a.capacity * sizeof *a.bins + (a.capacity == 0));
     a.spans = malloc(a.capacity * sizeof *a.spans + (a.capacity == 0));
     a.n = malloc(a.count * sizeof *a.n + (a.count == 0));
     for (size_t i = 0; i < a.count; i++)
@@ -179,6 +259,7 @@ static void release(arrays *a)
     free(a->z);
     free(a->n);
     free(a->spans);
+    free(a->bins);
 }
 
 static int fail(const char *what, int kind, int which)
@@ -191,6 +272,8 @@ static int fail(const char *what, int kind, int which)
 static int push_once(int kind, void **object, size_t size, int64_t *counts, long *done)
 {
     int which = draw(8) ? kind : (int)draw(CALLS), wrong = 0;
+    if (kind == 13 && draw(4) == 0)
+        which = draw(9) ? 33 : 34;
     arrays a = drawn_arrays(counts);
     unsigned char *before = malloc(size);
     fr_real *y = malloc(a.capacity * sizeof *y + (a.capacity == 0));
@@ -227,7 +310,8 @@ static int one_object(long *done, long *objects)
 {
     any_config config;
     size_t size = 0, needed;
-    int kind = (int)draw(KINDS), wrong = 0;
+    int kind = draw(100) ? (int)draw(KINDS - 1) : KINDS - 1; /* whose memory is 8 MB */
+    int wrong = 0, pushes = kind == 13 ? 60 : 12;
     void *object, *out = NULL;
     int64_t counts = draw(1000);
     memset(&config, 0, sizeof config);
@@ -242,7 +326,7 @@ static int one_object(long *done, long *objects)
     if (of_kind(kind, 2, &config, &needed, object, &out) != (size > 0 ? FR_OK : FR_BAD_CONFIG))
         wrong = fail("size and init disagree", kind, 0);
     *objects += size > 0;
-    for (int i = 0; size > 0 && !wrong && i < 12; i++)
+    for (int i = 0; size > 0 && !wrong && i < pushes; i++)
         wrong = push_once(kind, &object, size, &counts, done);
     free(object);
     return wrong;

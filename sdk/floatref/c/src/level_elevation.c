@@ -143,9 +143,10 @@ static void add_products(lv_work *w, int32_t columns)
     for (int32_t p = 0; p < LV_PIVOTS; p++) {
         const double *row = w->rows_of + lv_at(p, columns), *scaled = w->scaled_of + lv_at(p, columns);
         for (int32_t i = 0; i < columns; i++) {
-            w->with[3 * i] += row[i] * scaled[i];
-            w->with[3 * i + 1] += row[i] * scaled[columns - 2];
-            w->with[3 * i + 2] += row[i] * scaled[columns - 1];
+            double *with = w->with + lv_at(i, 3);
+            with[0] += row[i] * scaled[i];
+            with[1] += row[i] * scaled[columns - 2];
+            with[2] += row[i] * scaled[columns - 1];
         }
     }
 }
@@ -175,9 +176,9 @@ static void widen_by_doubts(lv_work *w, double gain, int32_t columns)
     const double *of_gain = w->with + lv_at(columns - 2, 3), *of_grade = of_gain + 3;
     double grade = fmin(TOGETHER * sqrt(of_grade[2]), GRADE_DOUBT);
     for (int32_t mark = 0; mark < w->marks; mark++) {
-        double by_gain = gain * w->with[3 * mark + 1] / of_gain[1];
-        double by_grade = grade * w->with[3 * mark + 2] / of_grade[2];
-        w->found[mark] = sqrt(w->with[3 * mark] + (by_gain * by_gain + by_grade * by_grade));
+        const double *with = w->with + lv_at(mark, 3);
+        double by_gain = gain * with[1] / of_gain[1], by_grade = grade * with[2] / of_grade[2];
+        w->found[mark] = sqrt(with[0] + (by_gain * by_gain + by_grade * by_grade));
     }
 }
 

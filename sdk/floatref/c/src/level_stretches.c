@@ -84,9 +84,11 @@ static void brake(fr_level *level, lv_arrays *a, int32_t at)
 static void go_on(fr_level *level, lv_arrays *a, int32_t at)
 {
     const lv_bin *bin = &a->queue[at];
-    if (level->behind == at && !is_behind(level, bin, &a->queue[level->last]))
+    if (level->behind == at && !is_behind(level, bin, &a->queue[level->last])) {
         grow(level, a, at);
-    else if (is_before(level, &a->queue[level->behind], bin) || at - level->behind > 2 * level->side)
+        return;
+    }
+    if (is_before(level, &a->queue[level->behind], bin) || at - level->behind > 2 * level->side)
         close_stretch(level, a);
 }
 
@@ -122,7 +124,7 @@ static void append(fr_level *level, lv_arrays *a, const lv_bin *bin)
     level->end++;
     if (bin->active != 0)
         brake(level, a, at);
-    else if (level->open != 0)
+    if (bin->active == 0 && level->open != 0)
         go_on(level, a, at);
     if (level->open == 0)
         let_go(level, a, at);
