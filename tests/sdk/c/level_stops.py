@@ -47,6 +47,8 @@ class Stop:
     lever_m: float = 0.0
     unread: float = 0.0
     missing: float = 0.0
+    stops: int = 1
+    between_s: float = 8.0
 
 
 STOPS = st.builds(
@@ -66,11 +68,12 @@ STOPS = st.builds(
 
 
 def speeds_of(stop):
-    """Return speeds in m/s: 8 s of travel before the brake and behind the start."""
-    fast, longer = stop.speed_mps, stop.speed_mps / stop.brake_mps2
-    corners = np.cumsum([0.0, 8.0, longer, stop.stood_s, 1.5 * longer, 8.0])
+    """Return speeds in m/s: travel before each brake and behind each start."""
+    fast, longer, between = stop.speed_mps, stop.speed_mps / stop.brake_mps2, stop.between_s
+    times = [longer, stop.stood_s, 1.5 * longer, between]
+    corners = np.cumsum([0.0, between, *(times * stop.stops)])
     t = np.arange(0.0, corners[-1], stop.step_s)
-    return np.interp(t, corners, [fast, fast, 0.0, 0.0, fast, fast])
+    return np.interp(t, corners, [fast, fast, *([0.0, 0.0, fast, fast] * stop.stops)])
 
 
 def follow(road, step, hz, damping, more=0.0):
@@ -81,14 +84,20 @@ def follow(road, step, hz, damping, more=0.0):
     return lsim(body, drive, step * np.arange(road.size), [drive[0], 0.0])[1]
 
 
+def hump(stop, away_m):
+    """Return the elevation ``away_m`` from the top of a hump."""
+    return stop.hump_m * np.exp(-np.square(away_m / 8.0))
+
+
 def drive_of(stop):
     """Return the bins of a stop, with noise as usual sensors have it."""
     rng, step, gravity = np.random.default_rng(stop.seed), stop.step_s, STANDARD_GRAVITY
     speed = speeds_of(stop)
     distance, along = np.cumsum(speed) * step, np.gradient(speed, step)
-    top = distance[np.flatnonzero(speed == 0.0)[0]] + stop.front_m
     ends = stop.front_m, stop.front_m - stop.wheelbase_m, 0.0
-    roads = [stop.hump_m * np.exp(-np.square((distance + e - top) / 8.0)) for e in ends]
+    halts = np.flatnonzero(np.diff(1.0 * (speed == 0.0), prepend=0.0) > 0.0)
+    tops = distance[halts] + stop.front_m
+    roads = [sum(hump(stop, distance + e - top) for top in tops) for e in ends]
     slope = (roads[0] - roads[1]) / stop.wheelbase_m
     pitch = follow(slope, step, 1.5, 0.3, 0.006 * (along + gravity * slope))
     middle_m = 0.5 * (ends[0] + ends[1])

@@ -92,7 +92,7 @@ def test_a_standstill_of_any_length_takes_constant_memory(double, stood_s):
     run = with_standstill(run_of(stop, rate), stood_s, rate)
     made = made_of(double, stop, rate)
     found = level(made, run)
-    drive, expected = level_by_sdk(run, stop, rate)
+    _, expected = level_by_sdk(run, stop, rate)
     assert made.memory.nbytes == made_of(double, stop, rate).memory.nbytes
     assert found["first"].size < 4000
     share = expected.share[found["first"].astype(int)]
