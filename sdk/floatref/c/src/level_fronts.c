@@ -10,6 +10,8 @@
 
 #include "level_work.h"
 
+#define CORRECTIONS 2
+
 /* Add the products of the values of each row that comes with the group. */
 static void add_squares(lv_work *w, int32_t group)
 {
@@ -180,23 +182,29 @@ static void solve_once(lv_work *w, const double *right, double *x)
         x[w->order[i]] = w->key[i];
 }
 
-/* The solution, and the same factors once more for what it leaves: a normal matrix of the condition
- * 1e14 has it right within some hundredths of a 1-sigma, then within a thousandth or less. */
-void fr_lv_solve(lv_work *w, const double *right, double *x)
+/* What the solution so far leaves of the right side: right - J'(J x), into `moved`. */
+static void find_rest(lv_work *w, const double *right, const double *x)
 {
-    solve_once(w, right, x);
     for (int32_t i = 0; i < w->unknowns; i++)
-        w->moved[i] = 0.0;
+        w->moved[i] = right[i];
     for (int32_t row = 0; row < w->rows; row++) {
         double sum = 0.0;
         for (int32_t a = w->start[row]; a < w->start[row + 1]; a++)
             sum += w->value[a] * x[w->column[a]];
         for (int32_t a = w->start[row]; a < w->start[row + 1]; a++)
-            w->moved[w->column[a]] += w->value[a] * sum;
+            w->moved[w->column[a]] -= w->value[a] * sum;
     }
-    for (int32_t i = 0; i < w->unknowns; i++)
-        w->moved[i] = right[i] - w->moved[i];
-    solve_once(w, w->moved, w->solved);
-    for (int32_t i = 0; i < w->unknowns; i++)
-        x[i] += w->solved[i];
+}
+
+/* The solution, corrected twice by the same factors: a normal matrix of the condition 1e14 has it
+ * right within some hundredths, then each time as much better again. */
+void fr_lv_solve(lv_work *w, const double *right, double *x)
+{
+    solve_once(w, right, x);
+    for (int32_t time = 0; time < CORRECTIONS; time++) {
+        find_rest(w, right, x);
+        solve_once(w, w->moved, w->solved);
+        for (int32_t i = 0; i < w->unknowns; i++)
+            x[i] += w->solved[i];
+    }
 }
