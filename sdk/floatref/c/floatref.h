@@ -512,7 +512,7 @@ FR_API fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, si
  * or sets off, from the slope that its sensors measure themselves (docs/road-prior-slope.md). One
  * fit of bins, each the mean of all wheel paths, by least squares over pitch, lean, bias, springs
  * and road. Double in both builds. No object: the memory is used during the call alone, and its size
- * follows from the longest stretch. A fit is made once for each stop; it takes 0.1 to 2 s on a PC.
+ * follows from the longest stretch. A fit is made once for each stop; it takes some 0.1 s on a PC.
  */
 typedef struct fr_level_fit_config {
     double step_s;        /* from bin to bin, 0.002 to 0.06; 0.01 */
@@ -592,7 +592,8 @@ FR_API fr_status fr_level_fit(const fr_level_fit_config *config, void *memory, s
  * fit.longest_s or fit.most_travel_m is fitted in windows that share 20 s. Where a fit is not found
  * the outcome says why, the share is 0 and the 1-sigma is 0.05 m.
  *
- * A push makes the fits of the stretches that end in it, each of 0.1 to 2 s on a PC.
+ * A push makes the fits of the stretches that end in it, each of some 0.1 s on a PC. No call models the
+ * pitch between brakes: there heights stay as they are read, but for what the last brake has left.
  */
 typedef struct fr_level_config {
     double rate_hz;          /* samples per second, at least 20; no default */
