@@ -66,7 +66,7 @@ static void *put(shelf *s, int32_t count, size_t each)
     return (void *)place;
 }
 
-/* Where the arrays of an object lie in its memory; returns the bytes of all, 0 if there is no fit. */
+/* Where the arrays of an object lie in its memory; returns all bytes, 0 if there is no fit. */
 size_t fr_lv_arrays(const fr_level *level, void *memory, lv_arrays *a)
 {
     shelf s = {(unsigned char *)memory, FR_PADDED(fr_level)};

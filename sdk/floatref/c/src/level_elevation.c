@@ -42,7 +42,8 @@ static void lay_tails(lv_work *w, int32_t mark)
     for (int32_t i = 0; i < TAILS; i++)
         tail[i] = 0.0;
     for (int32_t o = 1; o <= w->wide; o++) {
-        double left_m = LV_SPACING_M * (double)(o - left), right_m = LV_SPACING_M * (double)(o - right);
+        double left_m = LV_SPACING_M * (double)(o - left);
+        double right_m = LV_SPACING_M * (double)(o - right);
         if (o > left) {
             tail[FROM_LEFT] += w->high_pass[o];
             tail[ALONG_LEFT] -= w->high_pass[o] * left_m;
@@ -141,7 +142,8 @@ static void carry_on(lv_work *w, int32_t group, int32_t columns)
 static void add_products(lv_work *w, int32_t columns)
 {
     for (int32_t p = 0; p < LV_PIVOTS; p++) {
-        const double *row = w->rows_of + lv_at(p, columns), *scaled = w->scaled_of + lv_at(p, columns);
+        const double *row = w->rows_of + lv_at(p, columns);
+        const double *scaled = w->scaled_of + lv_at(p, columns);
         for (int32_t i = 0; i < columns; i++) {
             double *with = w->with + lv_at(i, 3);
             with[0] += row[i] * scaled[i];

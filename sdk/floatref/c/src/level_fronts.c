@@ -95,7 +95,8 @@ void fr_lv_take_products(double *out, const double *s, int32_t stride,
     double c4 = shares[4], c5 = shares[5], c6 = shares[6], c7 = shares[7];
     const double *s4 = s + lv_at(4, stride);
     for (int32_t i = 0; i < count; i++) {
-        double first = c0 * s[i] + c1 * s[i + stride] + c2 * s[i + 2 * stride] + c3 * s[i + 3 * stride];
+        double first = c0 * s[i] + c1 * s[i + stride] + c2 * s[i + 2 * stride] +
+                       c3 * s[i + 3 * stride];
         out[i] -= first + (c4 * s4[i] + c5 * s4[i + stride] + c6 * s4[i + 2 * stride] +
                            c7 * s4[i + 3 * stride]);
     }
@@ -111,7 +112,8 @@ static void subtract(lv_work *w)
             any |= shares[p] != 0.0;
         }
         if (any != 0)
-            fr_lv_take_products(w->front + lv_at(a, w->width), w->scaled, w->width, shares, a + 1);
+            fr_lv_take_products(w->front + lv_at(a, w->width), w->scaled, w->width, shares,
+                                a + 1);
     }
 }
 
@@ -139,7 +141,8 @@ int fr_lv_factor(lv_work *w)
     size_t panel = (size_t)w->width * LV_PIVOTS;
     clear(w->front, (size_t)w->width * (size_t)w->width);
     for (int32_t g = 0; g < w->groups; g++)
-        if (!fr_lv_eliminate_group(w, g, w->panel + (size_t)g * panel, w->diagonal + lv_at(g, LV_PIVOTS)))
+        if (!fr_lv_eliminate_group(w, g, w->panel + (size_t)g * panel,
+                                   w->diagonal + lv_at(g, LV_PIVOTS)))
             return 0;
     return 1;
 }

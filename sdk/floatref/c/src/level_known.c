@@ -26,7 +26,8 @@ static void know_vehicle(lv_work *w)
 
 void fr_lv_prior(const lv_work *w, int32_t which, int32_t *column, double *mean, double *sigma)
 {
-    const int32_t first[] = {lv_in_time(w, LV_BIAS), lv_in_time(w, LV_OFFSET), lv_in_time(w, LV_MOMENT), 0};
+    const int32_t first[] = {lv_in_time(w, LV_BIAS), lv_in_time(w, LV_OFFSET),
+                             lv_in_time(w, LV_MOMENT), 0};
     const double sigmas[] = {w->config->bias, LV_OFFSET_M, LV_MOMENT_SIGMA, LV_START_M};
     if (which < 4) {
         *column = first[which];
@@ -51,8 +52,8 @@ static int32_t count_read(const lv_work *w)
 static void count_rows(lv_work *w)
 {
     int32_t K = w->nodes, N = w->points;
-    const int32_t counts[LV_GROUPS] = {K - 1, K, K, LV_PRIOR, N - 1, N, N - 1, count_read(w), K - 1, K - 1,
-                                 w->middles, w->middles, w->middles, 0};
+    const int32_t counts[LV_GROUPS] = {K - 1, K, K, LV_PRIOR, N - 1, N, N - 1, count_read(w),
+                                       K - 1, K - 1, w->middles, w->middles, w->middles, 0};
     w->begin[0] = 0;
     for (int32_t group = 0; group < LV_GROUPS; group++)
         w->begin[group + 1] = w->begin[group] + counts[group];
@@ -85,7 +86,8 @@ static double square(double x)
 static void fix_sensors(lv_work *w)
 {
     double *read = w->sigma + w->begin[LV_READ], *force = w->sigma + w->begin[LV_FORCES];
-    double known = square(w->config->acceleration), missed = square(w->config->missing_acceleration);
+    double known = square(w->config->acceleration);
+    double missed = square(w->config->missing_acceleration);
     for (int32_t k = 0; k < w->nodes; k++) {
         double between_m = fmin(w->speed[k] * w->interval_s, LV_SPACING_M);
         *read = sqrt(square(LV_READING_M) + w->config->road_m * between_m / 3.0);
@@ -125,7 +127,8 @@ static void hold_springs(lv_work *w, double loose)
     double *bounce = w->sigma + w->begin[LV_BOUNCES], *pitch = w->sigma + w->begin[LV_PITCHES];
     for (int32_t m = 0; m < w->middles; m++) {
         double speed = w->speed[w->middle[m]], jolt = w->jolt[w->middle[m]];
-        bounce[m] = loose * hypot((LV_BOUNCE + LV_BOUNCE_SPEED * speed) / root, LV_JOLT_BOUNCE * jolt);
+        bounce[m] =
+            loose * hypot((LV_BOUNCE + LV_BOUNCE_SPEED * speed) / root, LV_JOLT_BOUNCE * jolt);
         pitch[m] = loose * hypot((LV_SWING + LV_SWING_SPEED * speed) / root, LV_JOLT_PITCH * jolt);
     }
 }

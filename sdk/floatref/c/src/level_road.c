@@ -22,7 +22,8 @@ static void merge_strips(lv_strip *into, const lv_strip *from)
         int own = j >= from->count || (i < into->count && into->column[i] <= from->column[j]);
         int other = i >= into->count || (j < from->count && from->column[j] <= into->column[i]);
         sum.column[sum.count] = own != 0 ? into->column[i] : from->column[j];
-        sum.value[sum.count] = (own != 0 ? into->value[i] : 0.0) + (other != 0 ? from->value[j] : 0.0);
+        sum.value[sum.count] =
+            (own != 0 ? into->value[i] : 0.0) + (other != 0 ? from->value[j] : 0.0);
         sum.count++;
         i += own != 0 ? 1 : 0;
         j += other != 0 ? 1 : 0;

@@ -6,7 +6,8 @@
 #include "level_model.h"
 #include "level_work.h"
 
-/* Store a row over its 1-sigma, by slots once these are known: an insertion sort, rows are short. */
+/* Store a row over its 1-sigma, by slots once these are known: rows are short enough
+ * for a sort by insertion. */
 void fr_lv_end_row(lv_work *w, lv_row *row, int32_t number)
 {
     int32_t *column = w->column + w->start[number];

@@ -113,7 +113,8 @@ static void subtract_point(lv_row *row, int32_t column, double value)
 }
 
 /* Subtract the road under an axle, with a share for each of three nodes. */
-static void subtract_road(const lv_work *w, lv_row *row, int32_t axle, int32_t k, const double *shares)
+static void subtract_road(const lv_work *w, lv_row *row, int32_t axle, int32_t k,
+                          const double *shares)
 {
     for (int32_t node = 0; node < 3; node++) {
         const lv_strip *strip = &w->strip[LV_FRONT + axle][k + node - 1];
@@ -129,8 +130,8 @@ static void add_three(const lv_work *w, lv_row *row, int32_t name, int32_t k, co
 }
 
 /* By the constants of the springs, with what bounce or pitch multiplies the pushes by. */
-static void add_springs(const lv_work *w, lv_row *row, const lv_car *car, int32_t k, const double *by,
-                        double softened)
+static void add_springs(const lv_work *w, lv_row *row, const lv_car *car, int32_t k,
+                        const double *by, double softened)
 {
     for (int32_t axle = 0; axle < 2; axle++)
         lv_add(row, lv_global(w, LV_STIFF_FRONT + axle),
@@ -181,7 +182,8 @@ static void derive_bounce(lv_work *w, const lv_car *car, const double *y, int32_
     subtract_road(w, &row, 1, k, car->shares[1]);
     add_body(w, &row, k, body);
     add_three(w, &row, LV_HEAVE, k, heave);
-    lv_add(&row, lv_global(w, LV_PLACE), -wheelbase_of(w) * lv_second(w, y + lv_in_time(w, LV_PITCH), k));
+    lv_add(&row, lv_global(w, LV_PLACE),
+           -wheelbase_of(w) * lv_second(w, y + lv_in_time(w, LV_PITCH), k));
     add_springs(w, &row, car, k, both, 0.0);
     fr_lv_end_row(w, &row, w->begin[LV_BOUNCES] + at);
 }

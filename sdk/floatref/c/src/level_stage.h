@@ -35,7 +35,7 @@ struct fr_level {
     lv_mean mean[LV_PATHS];
     int32_t every, filled, smooth, reach; /* smooth: bins of half a second */
     int32_t ring, after, before, side, window, shared, room;
-    int32_t ready, end, taken; /* in the queue: behind those ready, behind the last, first not taken */
+    int32_t ready, end, taken; /* in the queue: ends of those ready and of all; first not taken */
     int32_t open, first, behind, last; /* of the open stretch, and its last active bin */
     int32_t stood, resting, rest;      /* bins of a standstill; those that may be its last ones */
     int32_t known;                     /* whether the bin before was levelled */

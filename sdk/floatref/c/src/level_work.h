@@ -18,7 +18,8 @@ enum {
 enum { LV_LASER, LV_FRONT, LV_REAR, LV_ENDS };
 /* Groups of rows, in their order. LV_KNOWN are those of the road outside of the brake. */
 enum {
-    LV_WALK, LV_HEAVES, LV_NODS, LV_PRIORS, LV_RISES, LV_MEANS, LV_BENDS, LV_READ, LV_SAGS, LV_TURNS,
+    LV_WALK, LV_HEAVES, LV_NODS, LV_PRIORS, LV_RISES, LV_MEANS, LV_BENDS, LV_READ, LV_SAGS,
+    LV_TURNS,
     LV_FORCES, LV_BOUNCES, LV_PITCHES, LV_KNOWN, LV_GROUPS
 };
 
