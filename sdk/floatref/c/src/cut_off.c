@@ -85,13 +85,13 @@ void fr_wave_numbers(const fr_real *speed, fr_real largest, size_t count, fr_rea
 static int far_within(const fr_schedule *schedule, const fr_tangent *tangent, const fr_real *speed,
                       size_t count)
 {
-    fr_real least = 0, largest = 0, half = FR_R(0.49);
+    fr_real half = FR_R(0.49), most = half / (schedule->per_metre * tangent->step);
+    fr_flag wrong = 0;
     for (size_t i = 0; i < count; i++) {
-        least = speed[i] < least ? speed[i] : least;
-        largest = speed[i] > largest ? speed[i] : largest;
+        wrong |= speed[i] < 0;
+        wrong |= speed[i] >= most;
     }
-    return least >= 0 && largest * schedule->per_metre * tangent->step < half &&
-           schedule->low_speed * tangent->step < half;
+    return wrong == 0 && schedule->low_speed * tangent->step < half;
 }
 
 fr_status fr_check_speeds(const fr_schedule *schedule, const fr_tangent *tangent,

@@ -57,6 +57,16 @@ static fr_real bridged(fr_real value, fr_real before)
     return fr_missing(value) ? before : value;
 }
 
+/* Samples from the second one on. */
+static void run_constant(fr_trapezoid *sum, fr_real half_step, const fr_real *x, size_t count,
+                         fr_real *y)
+{
+    fr_trapezoid s = *sum;
+    for (size_t i = 1; i < count; i++)
+        y[i] = fr_trapezoid_next(&s, bridged(x[i], s.last), half_step);
+    *sum = s;
+}
+
 fr_status fr_integral_push(fr_integral *integral, const fr_real *x, size_t count, fr_real *y,
                            size_t capacity, size_t *written)
 {
@@ -67,8 +77,9 @@ fr_status fr_integral_push(fr_integral *integral, const fr_real *x, size_t count
     if (status != FR_OK)
         return status;
     sum = integral->sum;
-    for (size_t i = 0; i < count; i++)
-        y[i] = fr_trapezoid_step(&sum, bridged(x[i], sum.last), integral->half_step);
+    if (count > 0u)
+        y[0] = fr_trapezoid_step(&sum, bridged(x[0], sum.last), integral->half_step);
+    run_constant(&sum, integral->half_step, x, count, y);
     integral->sum = sum;
     *written = count;
     return FR_OK;

@@ -2,24 +2,33 @@
  *
  * Checks of whole arrays, before the first sample changes a state.
  */
+#include <string.h>
+
 #include "samples.h"
 
-/* As wide as fr_real, so that a loop over both can be vectorized. */
+/* The bits of a sample, those of its exponent, and the lowest of these. */
 #ifdef FR_FLOAT
-typedef int32_t mask;
+typedef uint32_t bits;
+#define EXPONENT UINT32_C(0x7f800000)
+#define LOWEST UINT32_C(0x00800000)
 #else
-typedef int64_t mask;
+typedef uint64_t bits;
+#define EXPONENT UINT64_C(0x7ff0000000000000)
+#define LOWEST UINT64_C(0x0010000000000000)
 #endif
 
-/* Whether all samples are finite. One loop without a branch. */
+/* Whether all samples are finite: of a number that is not, the exponent is all ones, and one more
+ * carries into the sign. Integers, since they are compared faster than samples everywhere, and on a
+ * small core much faster. */
 static int all_finite(const fr_real *x, size_t count)
 {
-    mask wrong = 0;
+    bits carried = 0;
     for (size_t i = 0; i < count; i++) {
-        fr_real zero = x[i] - x[i];
-        wrong |= zero != zero;
+        bits each;
+        (void)memcpy(&each, &x[i], sizeof each);
+        carried |= (each & EXPONENT) + LOWEST;
     }
-    return wrong == 0;
+    return (carried & ~(EXPONENT | (LOWEST - 1u))) == 0u;
 }
 
 fr_status fr_check_samples(const fr_real *x, size_t count, int32_t missing)

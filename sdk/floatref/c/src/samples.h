@@ -31,6 +31,13 @@ static inline int fr_one_of(int32_t value, int32_t first, int32_t last)
     return value >= first && value <= last;
 }
 
+/* Truth of a comparison in as many bits as fr_real, so that loops over both can be vectorized. */
+#ifdef FR_FLOAT
+typedef int32_t fr_flag;
+#else
+typedef int64_t fr_flag;
+#endif
+
 /* Index of the k-th sample that is passed. */
 static inline size_t fr_index(size_t k, size_t count, int backward)
 {
