@@ -14,7 +14,7 @@
 
 /* Samples of which c is computed ahead of the recursion that needs it: some vectors of a processor
  * that has them, few enough for it to look over. */
-#define FR_GROUP 8u
+#define FR_GROUP 32u
 
 /* (A.11) at a constant step: the step itself, pi times it, and whether the polynomial is short. */
 typedef struct fr_tangent {
@@ -54,10 +54,14 @@ static inline void fr_tangents_here(const fr_tangent *tangent, const fr_real *cu
 {
     fr_real angle = tangent->angle;
     fr_flag large = 0;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; tangent->is_short == 0 && i < count; i++) {
         fr_real u = angle * cutoff[i], u2 = u * u;
-        fr_real series = tangent->is_short != 0 ? fr_short_series(u2) : fr_long_series(u2);
-        c[i] = u + u * (u2 * series);
+        c[i] = u + u * (u2 * fr_long_series(u2));
+        large |= u > FR_SMALL;
+    }
+    for (size_t i = 0; tangent->is_short != 0 && i < count; i++) {
+        fr_real u = angle * cutoff[i], u2 = u * u;
+        c[i] = u + u * (u2 * fr_short_series(u2));
         large |= u > FR_SMALL;
     }
     if (large != 0)
