@@ -59,15 +59,29 @@ static inline fr_real power_of_e(fr_real u)
     return power;
 }
 
+/* Exponents of a group, in a loop of their own: in one with the powers, compilers take the limits
+ * for branches of the whole. */
+static void exponents(const fr_schedule *s, const fr_real *speed, size_t count, fr_real *exponent)
+{
+    for (size_t i = 0; i < count; i++) {
+        fr_real u = s->steepness * (speed[i] - s->transition);
+        u = u > BRIEF ? BRIEF : u;
+        exponent[i] = u < -BRIEF ? -BRIEF : u;
+    }
+}
+
 void fr_frequencies(const fr_schedule *schedule, const fr_real *speed, size_t count,
                     fr_real *frequency)
 {
-    fr_schedule s = *schedule;
-    for (size_t i = 0; i < count; i++) {
-        fr_real u = s.steepness * (speed[i] - s.transition), high = speed[i] * s.per_metre;
-        u = u > BRIEF ? BRIEF : u;
-        u = u < -BRIEF ? -BRIEF : u;
-        frequency[i] = high + (s.low_speed - high) / (1 + power_of_e(u));
+    fr_real low_speed = schedule->low_speed, per_metre = schedule->per_metre;
+    fr_real u[FR_GROUP];
+    for (size_t done = 0; done < count; done += FR_GROUP) {
+        size_t size = count - done < FR_GROUP ? count - done : FR_GROUP;
+        exponents(schedule, speed + done, size, u);
+        for (size_t i = 0; i < size; i++) {
+            fr_real high = speed[done + i] * per_metre;
+            frequency[done + i] = high + (low_speed - high) / (1 + power_of_e(u[i]));
+        }
     }
 }
 

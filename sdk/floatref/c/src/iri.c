@@ -119,7 +119,7 @@ static inline fr_real drive(car *moving, fr_real slope)
 {
     fr_real z = fr_mode_step(&moving->body, slope);
     z += fr_mode_step(&moving->axle, slope);
-    moving->total += (double)(z < 0 ? -z : z);
+    moving->total += fabs((double)z);
     return z;
 }
 
