@@ -59,30 +59,32 @@ static inline fr_real power_of_e(fr_real u)
     return power;
 }
 
-/* Exponents of a group, in a loop of their own: in one with the powers, compilers take the limits
- * for branches of the whole. */
-static void exponents(const fr_schedule *s, const fr_real *speed, size_t count, fr_real *exponent)
+/* Frequencies of at most a group. Each limit of the exponents has a loop of its own: in one with
+ * the powers, compilers take the limits for branches of the whole. */
+static inline void frequencies_here(fr_schedule s, const fr_real *speed, size_t count,
+                                    fr_real *frequency)
 {
+    fr_real u[FR_GROUP], all[FR_GROUP];
     for (size_t i = 0; i < count; i++) {
-        fr_real u = s->steepness * (speed[i] - s->transition);
-        u = u > BRIEF ? BRIEF : u;
-        exponent[i] = u < -BRIEF ? -BRIEF : u;
+        fr_real exponent = s.steepness * (speed[i] - s.transition);
+        u[i] = exponent > BRIEF ? BRIEF : exponent;
     }
+    for (size_t i = 0; i < count; i++)
+        u[i] = u[i] < -BRIEF ? -BRIEF : u[i];
+    for (size_t i = 0; i < count; i++) {
+        fr_real high = speed[i] * s.per_metre;
+        all[i] = high + (s.low_speed - high) / (1 + power_of_e(u[i]));
+    }
+    (void)memcpy(frequency, all, count * sizeof *all);
 }
 
 void fr_frequencies(const fr_schedule *schedule, const fr_real *speed, size_t count,
                     fr_real *frequency)
 {
-    fr_real low_speed = schedule->low_speed, per_metre = schedule->per_metre;
-    fr_real u[FR_GROUP];
-    for (size_t done = 0; done < count; done += FR_GROUP) {
-        size_t size = count - done < FR_GROUP ? count - done : FR_GROUP;
-        exponents(schedule, speed + done, size, u);
-        for (size_t i = 0; i < size; i++) {
-            fr_real high = speed[done + i] * per_metre;
-            frequency[done + i] = high + (low_speed - high) / (1 + power_of_e(u[i]));
-        }
-    }
+    size_t done = 0;
+    for (; count - done >= FR_GROUP; done += FR_GROUP)
+        frequencies_here(*schedule, speed + done, FR_GROUP, frequency + done);
+    frequencies_here(*schedule, speed + done, count - done, frequency + done);
 }
 
 void fr_wave_numbers(const fr_real *speed, fr_real largest, size_t count, fr_real *values)
