@@ -64,18 +64,16 @@ static inline fr_real power_of_e(fr_real u)
 static inline void frequencies_here(fr_schedule s, const fr_real *speed, size_t count,
                                     fr_real *frequency)
 {
-    fr_real u[FR_GROUP], all[FR_GROUP];
+    fr_real u[FR_GROUP], high[FR_GROUP];
     for (size_t i = 0; i < count; i++) {
         fr_real exponent = s.steepness * (speed[i] - s.transition);
         u[i] = exponent > BRIEF ? BRIEF : exponent;
+        high[i] = speed[i] * s.per_metre;
     }
     for (size_t i = 0; i < count; i++)
         u[i] = u[i] < -BRIEF ? -BRIEF : u[i];
-    for (size_t i = 0; i < count; i++) {
-        fr_real high = speed[i] * s.per_metre;
-        all[i] = high + (s.low_speed - high) / (1 + power_of_e(u[i]));
-    }
-    (void)memcpy(frequency, all, count * sizeof *all);
+    for (size_t i = 0; i < count; i++)
+        frequency[i] = high[i] + (s.low_speed - high[i]) / (1 + power_of_e(u[i]));
 }
 
 void fr_frequencies(const fr_schedule *schedule, const fr_real *speed, size_t count,

@@ -176,12 +176,12 @@ static inline void second_order(fr_filter *filter, const fr_real *x, ptrdiff_t s
     fr_real p = filter->p, c = filter->c, k1 = filter->k1, k2 = filter->k2, k3 = filter->k3;
     ptrdiff_t i = 0;
     for (size_t k = 0; k < count; k++) {
-        fr_real value = missing ? fr_bridged(x[i], held) : x[i], next;
+        fr_real value = missing ? fr_bridged(x[i], held) : x[i], band = s1, low = s2;
+        fr_real of_band = k1 * band, of_low = k1 * low;
+        s1 = advance(band, k2 * band, k1 * value - of_low);
+        s2 = advance(low, k3 * low, of_band + k3 * value);
+        y[i] = high ? ((value - low) - p * band) * gain : low + gain * (band + c * (value - low));
         held = value;
-        y[i] = high ? ((value - s2) - p * s1) * gain : s2 + gain * (s1 + c * (value - s2));
-        next = advance(s1, k2 * s1, k1 * value - k1 * s2);
-        s2 = advance(s2, k3 * s2, k1 * s1 + k3 * value);
-        s1 = next;
         i += stride;
     }
     filter->s1 = s1;
