@@ -10,6 +10,7 @@
 /* Ticks of a clock that counts down and wraps at 24 bits; 0 on the host, which is not timed. */
 uint32_t board_ticks(void);
 void board_put(const char *text);
+void board_put_number(uint64_t number);
 
 /* What the program does. */
 void measure(void);

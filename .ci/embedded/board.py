@@ -47,13 +47,17 @@ M7 = Target(
 
 @dataclass(frozen=True)
 class Figures:
-    """What a run of a stage says at one rate in Hz: bytes of the object, costs, and output bits."""
+    """What a run of a stage says at one rate in Hz: bytes of the object, costs, and output bits.
+
+    The bytes of stack are those of the whole program, the harness among it, and 0 on the host.
+    """
 
     rate: int
     bytes: int
     samples: int
     ticks: int
     bits: tuple[str, ...]
+    stack: int
 
     @property
     def instructions(self) -> float:
@@ -79,7 +83,9 @@ def stages() -> list[str]:
 
 def kinds() -> list[str]:
     """Return the kinds of objects that the header of the library declares."""
-    return re.findall(r"^FR_API fr_status fr_(\w+)_init\(", (LIBRARY / "floatref.h").read_text(), re.M)
+    return re.findall(
+        r"^FR_API fr_status fr_(\w+)_init\(", (LIBRARY / "floatref.h").read_text(), re.M
+    )
 
 
 def stage_kind(stage: str) -> str | None:
@@ -98,11 +104,13 @@ def quiet(command: list[str]) -> str:
 
 def read(text: str) -> list[Figures]:
     """Return the figures of all lines of a run; RuntimeError where the text is another."""
-    if LINE.sub("", text):
+    lines, _, used = text.partition("stack ")
+    if LINE.sub("", lines) or not re.fullmatch(r"(\d+\n)?", used):
         raise RuntimeError(f"the program says: {text}")
+    stack = int(used or 0)
     return [
-        Figures(*map(int, match.groups()[:4]), tuple(match[5].split()))
-        for match in LINE.finditer(text)
+        Figures(*map(int, match.groups()[:4]), tuple(match[5].split()), stack)
+        for match in LINE.finditer(lines)
     ]
 
 
@@ -159,7 +167,12 @@ class Board:
 def host(target: Target, stage: str, folder: Path, compiler: str = "cc") -> list[Figures]:
     """Return the figures of the same program on this machine; its ticks are 0."""
     made = folder / f"host-{stage}"
-    sources = [HERE / "stages.c", HERE / "signals.c", HERE / "host.c", *(LIBRARY / "src").glob("*.c")]
+    sources = [
+        HERE / "stages.c",
+        HERE / "signals.c",
+        HERE / "host.c",
+        *(LIBRARY / "src").glob("*.c"),
+    ]
     flags = [*FLAGS, *target.macros, f"-DSTAGE=stage_{stage}", f"-I{LIBRARY}", f"-I{HERE}"]
     quiet([compiler, *flags, *map(str, sources), "-lm", "-o", str(made)])
     return read(quiet([str(made)]))

@@ -32,7 +32,7 @@ static fr_span spans[8];
 /* One push of `count` samples; the status. */
 typedef fr_status (*push_of)(void *object, size_t count, size_t *written);
 
-static void put_number(uint64_t number)
+void board_put_number(uint64_t number)
 {
     char text[24], *at = text + sizeof text - 1;
     *at = '\0';
@@ -71,28 +71,31 @@ static uint32_t since(uint32_t begin)
 static void put_costs(size_t bytes, uint64_t samples, uint64_t ticks)
 {
     board_put("rate ");
-    put_number(now.rate);
+    board_put_number(now.rate);
     board_put(" bytes ");
-    put_number(bytes);
+    board_put_number(bytes);
     board_put(" samples ");
-    put_number(samples);
+    board_put_number(samples);
     board_put(" ticks ");
-    put_number(ticks);
+    board_put_number(ticks);
     board_put("\n");
 }
 
 /* Push pieces, untimed until the start is over, and report. */
-static void run(void *object, size_t bytes, push_of push)
+static void try_pieces(void *object, size_t bytes, push_of push)
 {
     size_t piece = now.rate / 100u, written = 0;
     uint64_t ticks = 0;
     for (int k = 0; k < WARM + TIMED; k++) {
-        uint32_t begin;
+        uint32_t begin, taken;
+        fr_status status;
         signals_next(&now, piece);
         begin = board_ticks();
-        if (push(object, piece, &written) != FR_OK)
+        status = push(object, piece, &written);
+        taken = since(begin);
+        if (status != FR_OK)
             board_put("refused\n");
-        ticks += k < WARM ? 0u : since(begin);
+        ticks += k < WARM ? 0u : taken;
     }
     put_costs(bytes, (uint64_t)TIMED * piece, ticks);
     put_outputs(written);
@@ -105,7 +108,7 @@ static void run(void *object, size_t bytes, push_of push)
         if (fr_##kind##_init(memory, sizeof memory, &(config), &object) != FR_OK)          \
             board_put("not possible\n");                                                   \
         else                                                                               \
-            run(object, fr_##kind##_size(&(config)), push);                                \
+            try_pieces(object, fr_##kind##_size(&(config)), push);                                \
     } while (0)
 
 /* A push of one input and one output as a push_of. */
@@ -134,10 +137,10 @@ static fr_status push_nothing(void *object, size_t count, size_t *written)
 
 void stage_nothing(void)
 {
-    run(NULL, 0u, push_nothing);
+    try_pieces(NULL, 0u, push_nothing);
 }
 
-static void run_filter(int32_t order, int32_t passes)
+static void try_filter(int32_t order, int32_t passes)
 {
     fr_filter_config config = fr_filter_defaults();
     config.step = 1.0 / RATE_HZ;
@@ -149,20 +152,20 @@ static void run_filter(int32_t order, int32_t passes)
 
 void stage_filter_high_pass_1(void)
 {
-    run_filter(1, FR_HIGH_PASS);
+    try_filter(1, FR_HIGH_PASS);
 }
 
 void stage_filter_high_pass_2(void)
 {
-    run_filter(2, FR_HIGH_PASS);
+    try_filter(2, FR_HIGH_PASS);
 }
 
 void stage_filter_low_pass_2(void)
 {
-    run_filter(2, FR_LOW_PASS);
+    try_filter(2, FR_LOW_PASS);
 }
 
-static void run_varying(int32_t sections, int32_t tangent)
+static void try_varying(int32_t sections, int32_t tangent)
 {
     fr_varying_config config = fr_varying_defaults();
     config.step = 1.0 / RATE_HZ;
@@ -173,22 +176,22 @@ static void run_varying(int32_t sections, int32_t tangent)
 
 void stage_varying_1(void)
 {
-    run_varying(FR_SECTION_1, FR_TANGENT_EXACT);
+    try_varying(FR_SECTION_1, FR_TANGENT_EXACT);
 }
 
 void stage_varying_2(void)
 {
-    run_varying(FR_SECTION_2, FR_TANGENT_EXACT);
+    try_varying(FR_SECTION_2, FR_TANGENT_EXACT);
 }
 
 void stage_varying_12(void)
 {
-    run_varying(FR_SECTION_12, FR_TANGENT_EXACT);
+    try_varying(FR_SECTION_12, FR_TANGENT_EXACT);
 }
 
 void stage_varying_12_short(void)
 {
-    run_varying(FR_SECTION_12, FR_TANGENT_SHORT);
+    try_varying(FR_SECTION_12, FR_TANGENT_SHORT);
 }
 
 void stage_integral(void)
@@ -214,7 +217,7 @@ static fr_status push_cut_off(void *object, size_t count, size_t *written)
 void stage_cut_off_frequency(void)
 {
     fr_cut_off_config config = fr_cut_off_defaults();
-    run(&config, 0u, push_cut_off);
+    try_pieces(&config, 0u, push_cut_off);
 }
 
 static fr_status push_distortion(void *object, size_t count, size_t *written)
@@ -227,7 +230,7 @@ void stage_timer_distortion(void)
 {
     fr_timer_distortion_config config = fr_timer_distortion_defaults();
     config.interval_m = INTERVAL_M;
-    run(&config, 0u, push_distortion);
+    try_pieces(&config, 0u, push_distortion);
 }
 
 void stage_local_suppression(void)
@@ -237,7 +240,7 @@ void stage_local_suppression(void)
     RUN(local_suppression, config, push_local_suppression);
 }
 
-static void run_matched(int32_t tangent)
+static void try_matched(int32_t tangent)
 {
     fr_matched_high_pass_config config = fr_matched_high_pass_defaults();
     config.rate_hz = RATE_HZ;
@@ -247,12 +250,12 @@ static void run_matched(int32_t tangent)
 
 void stage_matched_high_pass(void)
 {
-    run_matched(FR_TANGENT_EXACT);
+    try_matched(FR_TANGENT_EXACT);
 }
 
 void stage_matched_high_pass_short(void)
 {
-    run_matched(FR_TANGENT_SHORT);
+    try_matched(FR_TANGENT_SHORT);
 }
 
 void stage_projection(void)
@@ -342,7 +345,7 @@ static fr_status push_adaptive(void *object, size_t count, size_t *written)
 }
 
 /* `held_ms`: for how long the cut-off is held, 0 for each sample its own. */
-static void run_adaptive(int32_t tangent, uint32_t held_ms)
+static void try_adaptive(int32_t tangent, uint32_t held_ms)
 {
     fr_adaptive_config config = fr_adaptive_defaults();
     config.travel.rate_hz = RATE_HZ;
@@ -355,17 +358,17 @@ static void run_adaptive(int32_t tangent, uint32_t held_ms)
 
 void stage_adaptive(void)
 {
-    run_adaptive(FR_TANGENT_EXACT, 0u);
+    try_adaptive(FR_TANGENT_EXACT, 0u);
 }
 
 void stage_adaptive_short(void)
 {
-    run_adaptive(FR_TANGENT_SHORT, 0u);
+    try_adaptive(FR_TANGENT_SHORT, 0u);
 }
 
 void stage_adaptive_held_4_ms(void)
 {
-    run_adaptive(FR_TANGENT_EXACT, 4u);
+    try_adaptive(FR_TANGENT_EXACT, 4u);
 }
 
 /* The end of a run: the backward pass over its points, in one call. Its samples are points. */

@@ -12,9 +12,9 @@
 #define FR_BLOCK 64
 #endif
 
-/* Samples of which c is computed ahead of the recursion that needs it: some vectors of a processor
- * that has them, few enough for it to look over. */
-#define FR_GROUP 32u
+/* Samples of a loop that has no recursion, where its length is fixed so that it can be vectorized:
+ * few enough for a processor to look beyond them while a recursion beside it waits for itself. */
+#define FR_GROUP (FR_BLOCK < 32 ? (size_t)FR_BLOCK : (size_t)32)
 
 /* (A.11) at a constant step: the step itself, pi times it, and whether the polynomial is short. */
 typedef struct fr_tangent {

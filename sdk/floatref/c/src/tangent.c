@@ -52,7 +52,9 @@ fr_status fr_check_cutoffs(const fr_tangent *tangent, const fr_real *cutoff, siz
     fr_status status;
     fr_real step = tangent->step;
     int wrong = 0;
-    if (cutoff != NULL && count <= FR_MOST_SAMPLES && all_possible(step, cutoff, count))
+    if (count > 0u && cutoff == NULL)
+        return FR_NULL_POINTER;
+    if (count <= FR_MOST_SAMPLES && all_possible(step, cutoff, count))
         return FR_OK;
     status = fr_check_samples(cutoff, count, missing);
     for (size_t i = 0; status == FR_OK && i < count; i++)
