@@ -100,12 +100,7 @@ static int far_within(const fr_schedule *schedule, const fr_tangent *tangent, co
                       size_t count)
 {
     fr_real half = FR_R(0.49), most = half / (schedule->per_metre * tangent->step);
-    fr_flag wrong = 0;
-    for (size_t i = 0; i < count; i++) {
-        wrong |= speed[i] < 0;
-        wrong |= speed[i] >= most;
-    }
-    return wrong == 0 && schedule->low_speed * tangent->step < half;
+    return schedule->low_speed * tangent->step < half && fr_all_within(speed, count, most);
 }
 
 fr_status fr_check_speeds(const fr_schedule *schedule, const fr_tangent *tangent,

@@ -53,6 +53,10 @@ static inline size_t fr_index(size_t k, size_t count, int backward)
 /* FR_OK if `x` holds finite samples, and missing ones only where these are bridged. */
 fr_status fr_check_samples(const fr_real *x, size_t count, int32_t missing);
 
+/* Whether all samples are there and lie within 0 to `most`, which is finite. A negative zero is not
+ * taken for one of them, so no is an answer for a slower check. */
+int fr_all_within(const fr_real *x, size_t count, fr_real most);
+
 /* The same for time steps: zero or above, never missing. */
 fr_status fr_check_steps(const fr_real *x, size_t count);
 

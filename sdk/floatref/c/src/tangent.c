@@ -35,17 +35,6 @@ void fr_tangents(const fr_tangent *tangent, const fr_real *cutoff, size_t count,
     fr_tangents_here(tangent, cutoff, count, c);
 }
 
-/* Whether all cut-offs are there and possible: an infinite one is not within any limit. */
-static int all_possible(fr_real step, const fr_real *cutoff, size_t count)
-{
-    fr_flag wrong = 0;
-    for (size_t i = 0; i < count; i++) {
-        wrong |= !(cutoff[i] >= 0);
-        wrong |= !(step * cutoff[i] < FR_R(0.5));
-    }
-    return wrong == 0;
-}
-
 fr_status fr_check_cutoffs(const fr_tangent *tangent, const fr_real *cutoff, size_t count,
                            int32_t missing)
 {
@@ -54,7 +43,7 @@ fr_status fr_check_cutoffs(const fr_tangent *tangent, const fr_real *cutoff, siz
     int wrong = 0;
     if (count > 0u && cutoff == NULL)
         return FR_NULL_POINTER;
-    if (count <= FR_MOST_SAMPLES && all_possible(step, cutoff, count))
+    if (count <= FR_MOST_SAMPLES && fr_all_within(cutoff, count, FR_R(0.49) / step))
         return FR_OK;
     status = fr_check_samples(cutoff, count, missing);
     for (size_t i = 0; status == FR_OK && i < count; i++)
