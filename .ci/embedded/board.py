@@ -108,10 +108,11 @@ def read(text: str) -> list[Figures]:
     if LINE.sub("", lines) or not re.fullmatch(r"(\d+\n)?", used):
         raise RuntimeError(f"the program says: {text}")
     stack = int(used or 0)
-    return [
-        Figures(*map(int, match.groups()[:4]), tuple(match[5].split()), stack)
-        for match in LINE.finditer(lines)
-    ]
+    found = []
+    for match in LINE.finditer(lines):
+        rate, size, samples, ticks = map(int, match.groups()[:4])
+        found.append(Figures(rate, size, samples, ticks, tuple(match[5].split()), stack))
+    return found
 
 
 class Board:
@@ -164,15 +165,22 @@ class Board:
         return int(text), int(data)
 
 
-def host(target: Target, stage: str, folder: Path, compiler: str = "cc") -> list[Figures]:
-    """Return the figures of the same program on this machine; its ticks are 0."""
-    made = folder / f"host-{stage}"
-    sources = [
-        HERE / "stages.c",
-        HERE / "signals.c",
-        HERE / "host.c",
-        *(LIBRARY / "src").glob("*.c"),
-    ]
-    flags = [*FLAGS, *target.macros, f"-DSTAGE=stage_{stage}", f"-I{LIBRARY}", f"-I{HERE}"]
-    quiet([compiler, *flags, *map(str, sources), "-lm", "-o", str(made)])
-    return read(quiet([str(made)]))
+class Host:
+    """This machine, with the library built in the precision of a core, in ``folder``."""
+
+    def __init__(self, target: Target, folder: Path, compiler: str = "cc") -> None:
+        """Build the library."""
+        self.folder, self.command = folder, [compiler, *FLAGS, *target.macros]
+        self.command += [f"-I{LIBRARY}", f"-I{HERE}"]
+        folder.mkdir(parents=True, exist_ok=True)
+        self.objects = [HERE / "signals.c", HERE / "host.c"]
+        for source in sorted((LIBRARY / "src").glob("*.c")):
+            self.objects.append(folder / f"{source.stem}.o")
+            quiet([*self.command, "-c", str(source), "-o", str(self.objects[-1])])
+
+    def run(self, stage: str) -> list[Figures]:
+        """Run a stage; its ticks are 0."""
+        made = self.folder / stage
+        sources = [str(HERE / "stages.c"), *map(str, self.objects), "-lm"]
+        quiet([*self.command, f"-DSTAGE=stage_{stage}", *sources, "-o", str(made)])
+        return read(quiet([str(made)]))
