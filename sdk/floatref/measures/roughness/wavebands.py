@@ -52,7 +52,6 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     filtered = np.full(values.size, np.nan)
     cutoff = high_pass_wavelength_setting(wavelength_m)
     rise = bridge(values[stretch]) - values[stretch.start]
-
     filtered[stretch] = high_pass_b3x2(rise, interval_m, cutoff)
     filtered[~np.isfinite(values)] = np.nan
     return filtered
@@ -103,13 +102,13 @@ def agreement(
 
 
 def pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
-    """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
+    """Return ``slope``, which it overwrites, through HPF_B3x2 and, where it can act, LPF_B3x2."""
     from floatref.measures.roughness.zero_phase import high_pass_b3x2, low_pass_b3x2
 
-    passed = high_pass_b3x2(slope, interval_m, limits.long_m)
+    passed = high_pass_b3x2(slope, interval_m, limits.long_m, out=slope)
     if limits.short_m <= 2 * interval_m:
         return passed
-    return low_pass_b3x2(passed, interval_m, limits.short_m)
+    return low_pass_b3x2(passed, interval_m, limits.short_m, out=passed)
 
 
 def _filter(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
