@@ -184,8 +184,10 @@ def grind_heights(trace: FloatArray, span: int, limit: float) -> FloatArray:
     heights = np.zeros(trace.size)
     for at in range(0, trace.size, CHUNK):
         low, end = max(at - span, 0), min(at + CHUNK, trace.size)
-        part = _grind_heights(trace[low : end + span], span, limit)
-        heights[at:end] = part[at - low : end - low]
+        part = _grind_heights(trace[low : end + span], span, limit)[at - low : end - low]
+        # Zeros that are never written take no memory.
+        high = np.flatnonzero(part)
+        heights[at + high] = part[high]
     return heights
 
 
