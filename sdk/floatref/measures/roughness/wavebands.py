@@ -138,16 +138,14 @@ class PathSignals(NamedTuple):
         one, other = (replace(each, tracks=(each.track(name),)) for each in (reference, profile))
         expected, found = on_common_grid(one, other)
         p, q, interval_m = expected[name].elevation, found[name].elevation, expected.interval_m
-        masks = [
-            each[name].valid if of_valid else np.isfinite(each[name].elevation)
-            for each in (expected, found)
-        ]
-        both = masks[0] & masks[1]
-        release(p)
-        release(q)
-        del found, other, masks
+        both = np.ones(p.size, dtype=np.bool_)
+        for track in (expected[name], found[name]):
+            both &= track.valid if of_valid else np.isfinite(track.elevation)
+            release(track.elevation)
+        del expected, found, other, track
         common = common_stretch(both)
         missing = ~both[common] if of_valid else None
+        del both
         q_band = band_signal(bridge(q[common], missing), interval_m, band)
         del q
         return cls(band_signal(bridge(p[common], missing), interval_m, band), q_band, interval_m)
