@@ -119,7 +119,7 @@ def _handlers_held_back() -> Iterator[None]:
                 signal.signal(number, lambda number, _: heard.append(number))
         yield
     finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+        for each, handler in before.items():
+            signal.signal(each, handler)
         if heard:
             before[heard[0]](heard[0], None)

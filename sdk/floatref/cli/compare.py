@@ -138,9 +138,11 @@ def _common_points(reference: Profile, profile: Profile, name: str) -> _Common:
     p, q, interval = expected[name], found[name], expected.interval_m
     with name_errors(f"track {name}"):
         valid = iri_of_common_points(p, q, interval)
-        both = iri(q.elevation, interval), iri(p.elevation, interval)
-    release(p.elevation)
-    release(q.elevation)
+        found_m_per_km = iri(q.elevation, interval)
+        release(q.elevation)
+        expected_m_per_km = iri(p.elevation, interval)
+        release(p.elevation)
+    both = found_m_per_km, expected_m_per_km
     return _Common(name, expected.start_m, expected.length_m, *both, valid)
 
 
