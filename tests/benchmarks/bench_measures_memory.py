@@ -33,6 +33,10 @@ COMMANDS = {
 }
 
 
+OFFSETS_M = {"compare": 0.0, "between points": 0.0017, "65 m apart": 65.0013}
+"""By how much the profile lies farther along than the reference of `compare`."""
+
+
 def write_profile(folder: Path, length_m: float, interval_m: float, error_m: float = 0.0) -> Path:
     """Write two wheel paths with an error of measurement, and the document that lists them."""
     folder.mkdir()
@@ -55,8 +59,8 @@ def write_profile(folder: Path, length_m: float, interval_m: float, error_m: flo
     return folder
 
 
-def write_document(folder: Path, interval_m: float) -> None:
-    """Describe the files of the profile."""
+def write_document(folder: Path, interval_m: float, start_m: float = 0.0) -> None:
+    """Describe the files of the profile, whose first point is at ``start_m``."""
     tracks = [
         {
             "name": name,
@@ -66,7 +70,8 @@ def write_document(folder: Path, interval_m: float) -> None:
         }
         for name in TRACKS
     ]
-    document = {"format": "floatref-profile/1", "interval_m": interval_m, "tracks": tracks}
+    document = {"format": "floatref-profile/1", "interval_m": interval_m, "start_m": start_m}
+    document["tracks"] = tracks
     (folder / "profile.json").write_text(json.dumps(document))
 
 
@@ -80,11 +85,17 @@ def main() -> None:
         with tempfile.TemporaryDirectory(prefix="floatref-measures-") as name:
             profile = write_profile(Path(name) / "run", given.length, interval_m)
             again = write_profile(Path(name) / "again", given.length, interval_m, 1e-4)
-            commands = {what: [*words, str(profile)] for what, words in COMMANDS.items()}
-            commands["compare"] = ["compare", str(again), str(profile)]
-            for what, words in commands.items():
-                seconds, peak_mb = run(*words, "--json")
-                print(f"{1000.0 * interval_m:6g} mm  {what:14} {seconds:7.1f} s {peak_mb:8.1f} MB")
+            for what, words in COMMANDS.items():
+                show(interval_m, what, *words, str(profile))
+            for what, start_m in OFFSETS_M.items():
+                write_document(profile, interval_m, start_m)
+                show(interval_m, what, "compare", str(again), str(profile))
+
+
+def show(interval_m: float, what: str, *words: str) -> None:
+    """Run a command and print its time and peak memory."""
+    seconds, peak_mb = run(*words, "--json")
+    print(f"{1000.0 * interval_m:6g} mm  {what:14} {seconds:7.1f} s {peak_mb:8.1f} MB", flush=True)
 
 
 if __name__ == "__main__":

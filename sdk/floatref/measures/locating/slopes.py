@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.measures.roughness.gaps import bridge
 from floatref.measures.roughness.wavebands import waveband_slope
 from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.profile import ProfileTrack
@@ -52,13 +53,14 @@ def slope_of(
 ) -> Slope | None:
     """Return the slope of ``track``, whose point 0 lies at ``start_m``; None without a valid point.
 
-    Elevation may be in any unit: its median is taken away first.
+    Elevation may be in any unit: its mean is taken away first, and points that are not usable are
+    bridged.
     """
     usable = usable_points(track, interval_m)
     if np.count_nonzero(usable) < 2 or interval_m >= 2.0:
         return None
     cut = slice(int(usable.argmax()), usable.size - int(usable[::-1].argmax()))
-    z, factor = _within_reach(np.where(usable[cut], track.elevation[cut], np.nan))
+    z, factor = _within_reach(bridge(track.elevation[cut], ~usable[cut]))
     release(track.elevation)
     try:
         slope = waveband_slope(z, interval_m, "medium")
@@ -80,14 +82,11 @@ def usable_points(track: ProfileTrack, interval_m: float) -> BoolArray:
 
 
 def _within_reach(z: FloatArray) -> tuple[FloatArray, float]:
-    """Return ``z``, changed in place, about its median and less by a factor.
-
-    No filter then refuses it.
-    """
-    z -= np.nanmedian(z)
-    factor = max(float(np.nanmax(z)) / HIGHEST, -float(np.nanmin(z)) / HIGHEST, 1.0)
-    z /= factor
-    return z, factor
+    """Return ``z`` about its mean and less by a factor, so that no filter refuses it."""
+    rise = z - z.mean()
+    factor = max(float(rise.max()) / HIGHEST, -float(rise.min()) / HIGHEST, 1.0)
+    rise /= factor
+    return rise, factor
 
 
 def _on_steps(

@@ -146,7 +146,8 @@ class PathSignals(NamedTuple):
         common = common_stretch(both)
         missing = ~both[common] if of_valid else None
         del both
-        q_band = band_signal(bridge(q[common], missing), interval_m, band)
+        q = bridge(q[common], missing)
+        q_band = band_signal(q, interval_m, band)
         del q
         return cls(band_signal(bridge(p[common], missing), interval_m, band), q_band, interval_m)
 
