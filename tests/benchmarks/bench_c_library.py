@@ -161,7 +161,7 @@ def pairs(library: Library) -> dict[str, tuple[Call, Call]]:
         ),
         "IRI, per point": (
             library.call("iri", [x], interval_m=INTERVAL_M),
-            lambda: car_response(x, 10, 0.0, 1.0 / INTERVAL_M, modes, y[:-1]),
+            lambda: car_response(x, 10, 0.0, 1.0 / INTERVAL_M, modes, np.zeros(4), y[:-1]),
         ),
         "adaptive set": adaptive(library, x, h, counts),
     }

@@ -139,7 +139,7 @@ def test_keys_move_zoom_and_switch(opened: Callable[..., Any], pages: Path) -> N
 def test_units_and_axis_change_picture_and_table(opened: Callable[..., Any], pages: Path) -> None:
     page = opened(pages / "runs.html")
     before = page.evaluate(DATA, 0)
-    cell = "table tbody tr >> nth=0 >> td >> nth=4"
+    cell = "table tbody tr >> nth=0 >> td >> nth=2"
     metric = float(page.text_content(cell))
     page.select_option("select >> nth=1", "us")
     after = page.evaluate(DATA, 0)
@@ -217,6 +217,22 @@ def test_a_page_of_next_to_nothing_opens(opened: Callable[..., Any], tmp_path: P
     lone = Recording((Channel.of("gnss_height", [1.0], StampedClock.of([6.0])),))
     write_recording_page(tmp_path / "lone.html", "lone", lone, PageOptions())
     assert "every one of the samples" in text(opened(tmp_path / "lone.html"))
+
+
+@pytest.mark.parametrize("name", ["first", "northbound_right_lane_2026-11-26_run-10.parquet"])
+def test_a_phone_shows_the_iri_and_its_share_without_a_movement(
+    opened: Callable[..., Any], road: Callable[..., Profile], tmp_path: Path, name: str
+) -> None:
+    runs = {name: road(), "late": road(shift=-8)}
+    write_profile_page(tmp_path / "runs.html", runs, PageOptions())
+    page = opened(tmp_path / "runs.html", **PHONE)
+    cells = page.locator("table tbody tr >> nth=0").locator("td")
+    heads = page.locator("table thead th").all_text_contents()
+    for k, title in ((1, "wheel path"), (2, "IRI of valid points (m/km)"), (3, "share")):
+        assert heads[k].startswith(title)
+        box = cells.nth(k).bounding_box()
+        assert box["x"] >= 0.0
+        assert box["x"] + box["width"] <= 390.0
 
 
 def test_a_phone_shows_it_and_pans_by_touch(opened: Callable[..., Any], pages: Path) -> None:

@@ -28,6 +28,7 @@ SOME_FAILED = 5
 @click.command("batch")
 @click.argument("given", metavar="IN...", nargs=-1, required=True)
 @click.option(
+    "-o",
     "--out",
     required=True,
     type=click.Path(path_type=Path),

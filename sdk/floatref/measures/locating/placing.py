@@ -23,8 +23,7 @@ from floatref.measures.locating.profile_units import (
     height_unit,
 )
 from floatref.measures.locating.slopes import slope_of
-from floatref.measures.roughness.agreement import on_common_grid
-from floatref.measures.roughness.wavebands import agreement
+from floatref.measures.roughness.wavebands import path_agreement
 from floatref.values.profile import Profile
 
 MAX_OFFSET_M = 1.0
@@ -57,13 +56,14 @@ def place(reference: Profile, run: Profile) -> Placement:
 def _agreement_as_given(reference: Profile, run: Profile) -> float:
     """Return the least correlation of the wheel paths, 0 where anything has to be done first."""
     try:
-        expected, found = on_common_grid(reference, run)
-        if expected.length_m < reference.length_m - COVERED_M:
+        # Points of the reference that the run ends before are missing.
+        begin_m = max(reference.start_m, run.start_m)
+        end_m = min(reference.start_m + reference.length_m, run.start_m + run.length_m)
+        if end_m - begin_m < reference.length_m - COVERED_M:
             return 0.0
         least = 1.0
-        for track in expected.tracks:
-            p, q = track.elevation, found.track(track.name).elevation
-            agreed = agreement(p, q, expected.interval_m, "iri", MAX_OFFSET_M)
+        for track in reference.tracks:
+            agreed = path_agreement(reference, run, track.name, "iri", MAX_OFFSET_M)
             like = agreed.amplitude_factor >= 1.0 / SAME_HEIGHT
             least = min(least, agreed.correlation if like else 0.0)
     except InputError:
