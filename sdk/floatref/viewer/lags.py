@@ -1,5 +1,6 @@
 """Where runs of one road lie against the first of them: their place, and their lag there."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -28,9 +29,9 @@ def find_place(reference: Profile, profile: Profile) -> Shift:
     names = [name for name in reference if name in profile]
     if not names:
         return Shift(np.nan, "it has no wheel path of the reference")
-    sides = [replace(p, tracks=tuple(p[name] for name in names)) for p in (reference, profile)]
     try:
-        return find_shift(*_about_longest(*sides, FARTHEST_M))
+        mine, its = (_of_paths(each, names) for each in (reference, profile))
+        return find_shift(*_about_longest(mine, its, FARTHEST_M))
     except InputError:
         return Shift(np.nan, f"no part of it lies within {FARTHEST_M:g} m of the reference's")
 
@@ -49,8 +50,8 @@ def lag_of(reference: Profile, profile: Profile) -> float:
 
 def _lag(reference: Profile, profile: Profile, name: str) -> float:
     try:
-        sides = [replace(side, tracks=(side[name],)) for side in (reference, profile)]
-        expected, found = on_common_grid(*_about_longest(*sides, 2 * LARGEST_M))
+        mine, its = (_of_paths(each, [name]) for each in (reference, profile))
+        expected, found = on_common_grid(*_about_longest(mine, its, 2 * LARGEST_M))
         both = expected[name].valid & found[name].valid
         part = _longest(both, LONGEST_M / expected.interval_m)
         return agreement(
@@ -61,6 +62,10 @@ def _lag(reference: Profile, profile: Profile, name: str) -> float:
         ).offset_m
     except InputError:
         return np.nan
+
+
+def _of_paths(profile: Profile, names: Sequence[str]) -> Profile:
+    return replace(profile, tracks=tuple(profile[name] for name in names))
 
 
 def _about_longest(

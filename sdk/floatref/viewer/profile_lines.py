@@ -29,7 +29,7 @@ class Run:
     name: str
     profile: Profile
     part: slice
-    place: Shift = Shift(0.0)
+    place: Shift
 
     @property
     def moved_m(self) -> float:

@@ -154,9 +154,7 @@ def _follow(reference: Profile, forward: Profile, name: str, line: Line, sign: f
     covered = scores[scores != 0.0]
     median = float(np.median(covered)) if covered.size else 0.0
     whole_m = min(PIECE_M, reference.length_m)
-    return _Followed(
-        line, median, gain(p, q, line, sign), sign * common_score(p, q, line, whole_m)
-    )
+    return _Followed(line, median, gain(p, q, line, sign), sign * common_score(p, q, line, whole_m))
 
 
 def _offset(line: Line, reference: Profile) -> float:

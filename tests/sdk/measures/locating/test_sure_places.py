@@ -35,7 +35,9 @@ def slope(values: np.ndarray, start_m: float = 0.0) -> Slope:
 def test_of_unlike_roads_next_to_none_is_placed(length_m: float) -> None:
     first = int(np.random.default_rng().integers(1 << 30))
     points = round(length_m / INTERVAL_M)
-    placed = [seed for seed in range(first, first + PAIRS) if place(*unlike_pair(seed, points)).found]
+    placed = [
+        seed for seed in range(first, first + PAIRS) if place(*unlike_pair(seed, points)).found
+    ]
     assert len(placed) <= BY_CHANCE, placed
 
 
