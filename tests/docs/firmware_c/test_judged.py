@@ -12,22 +12,8 @@ pytestmark = pytest.mark.slow
 
 DOCS = Path(__file__).parents[3] / "docs"
 README, PAGE = DOCS / "examples" / "firmware_c" / "README.md", DOCS / "firmware.md"
-WORDS = [
-    "zero",
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-    "thirteen",
-]
+WORDS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+WORDS += ("eleven", "twelve", "thirteen", "fourteen", "fifteen")
 CONFORMANCE = Path(sysconfig.get_path("scripts")) / "conformance"
 
 
@@ -53,7 +39,8 @@ def test_the_page_counts_and_names_what_the_judge_fails(build):
     done = run(build("firmware"), "--json")
     checks = {check["id"]: check for check in json.loads(done.stdout)["checks"]}
     failed = {name: check["shown"] for name, check in checks.items() if check["outcome"] != "pass"}
-    page = " ".join(PAGE.read_text(encoding="utf-8").split())
+    text = PAGE.read_text(encoding="utf-8")
+    page = " ".join(text.split())
     counts = f"passes {WORDS[len(checks) - len(failed)]} of the"
     assert f"The finished firmware {counts}" in page
     assert f"the exit code is {done.returncode}. It fails {WORDS[len(failed)]}:" in page
