@@ -22,6 +22,7 @@ from rich.text import Text
 
 MOVES = re.compile(r"\x1b\[[0-9;?]*[A-HJKSTfhlsu]|\x1b\][^\x07]*\x07")
 """Sequences that move the cursor or clear a line; those of colours end in m."""
+SPARE = 4
 FORM = """<!doctype html><meta charset="utf-8"><style>
 body {{ margin: 0; background: #fff; color: #16202a; }}
 pre {{ margin: 14px 18px; font: 15px/20px "DejaVu Sans Mono", monospace;
@@ -110,6 +111,8 @@ def browser_page(width: int, scale: float = 1.0) -> Iterator[Callable[[str], Pag
 
 def picture(body: str, columns: int, path: Path) -> None:
     """Write HTML as a terminal of ``columns`` shows it to ``path``; longer lines go on below."""
-    with browser_page(round(9.04 * columns) + 36) as opened:
-        form = FORM.format(body=body, columns=columns)
+    # A name that was replaced by a longer one may go on behind the terminal's last column.
+    wide = columns + SPARE
+    with browser_page(round(9.04 * wide) + 36) as opened:
+        form = FORM.format(body=body, columns=wide)
         opened(form).screenshot(path=path, full_page=True)

@@ -1,1 +1,1 @@
-"""The recording beside a profile: how a command is told of it, and the places that it has."""
+"""The recording beside a profile: options that name it, and the places that it has."""
