@@ -72,6 +72,26 @@ def test_the_default_device_passes_and_fails_what_the_table_says(monkeypatch) ->
     assert f"the exit code 1: {WORDS[first.passed]} pass," in page("../README.md")
 
 
+def test_a_row_is_renewed_in_its_place_alone(monkeypatch) -> None:
+    module = table(monkeypatch)
+    text = module.PAGE.read_text(encoding="utf-8")
+    first, *others = module.rows_of_page()
+    assert module.renewed(text, first) == text
+    better = first._replace(passed=len(IDS) - 1, fails=frozenset({"stop"}))
+    monkeypatch.setattr(module, "PAGE", Shown(module.renewed(text, better)))
+    assert module.rows_of_page() == [better, *others]
+
+
 def table(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / ".ci"))
     return importlib.import_module("class_table")
+
+
+class Shown:
+    """A page in place of a file."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def read_text(self, encoding: str) -> str:
+        return self.text
