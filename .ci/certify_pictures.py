@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from playwright.sync_api import Page
-from terminal import as_html, browser_page, environment, picture, run_in_terminal
+from terminal import MOVES, as_html, browser_page, environment, picture, run_in_terminal
 
 from floatref import Profile, ProfileTrack, read_profile, write_profile
 
@@ -60,11 +60,11 @@ def _higher(track: ProfileTrack) -> ProfileTrack:
 
 
 def show_terminal(text: str) -> None:
-    """Draw what the command printed, to the end of the first table of pairs."""
-    body, _, rest = text.partition(LAST_SHOWN)
+    """Draw what the command printed, from the verdict to the end of the first table of pairs."""
+    plain = MOVES.sub("", text).replace("\r\n", "\n")
+    body, _, rest = plain[plain.index("FAIL: ") :].partition(LAST_SHOWN)
     table = rest.split("\n\n")[0]
-    html = as_html(f"{body}{LAST_SHOWN}{table}".replace("\r", "").strip("\n"))
-    picture(html, COLUMNS, IMAGES / "certify-terminal.png")
+    picture(as_html(f"{body}{LAST_SHOWN}{table}"), COLUMNS, IMAGES / "certify-terminal.png")
 
 
 def show_page(page: Page) -> None:
