@@ -195,6 +195,22 @@ def test_wheel_paths_runs_and_shift(opened: Callable[..., Any], pages: Path) -> 
     assert all(y is None for y in page.evaluate(DATA, 0)[9])
 
 
+def test_a_run_65_m_away_is_drawn_over_the_reference(
+    opened: Callable[..., Any], road: Callable[..., Profile], tmp_path: Path
+) -> None:
+    runs = {"first": road(), "late": replace(road(), start_m=65.0), "other": road(seed=8)}
+    write_profile_page(tmp_path / "moved.html", runs, PageOptions())
+    page = opened(tmp_path / "moved.html")
+    choices = page.locator(".run").all_text_contents()
+    assert "moved by -65.000 m" in choices[1]
+    assert "place not sure: the best correlation" in choices[2]
+    page.evaluate("showPart(50, 52)")
+    data = page.evaluate(DATA, 0)
+    pairs = [pair for pair in zip(data[1], data[9], strict=True) if None not in pair]
+    assert len(pairs) > 20
+    np.testing.assert_allclose(*np.array(pairs, dtype=np.float64).T, atol=1e-3)
+
+
 def test_a_row_of_the_table_shows_its_place(opened: Callable[..., Any], pages: Path) -> None:
     page = opened(pages / "runs.html")
     page.get_by_role("button", name="100.00", exact=True).first.click()

@@ -55,7 +55,8 @@ SOME_FAILED = 5
 @click.option(
     "--measures",
     is_flag=True,
-    help="Add Ride Number, localized roughness, straightedge and others to every segment.",
+    help="Add Ride Number, localized roughness, straightedge and others to every segment, by the "
+    "default limits of roughness and straightedge.",
 )
 @click.option(
     "--gis",

@@ -8,14 +8,11 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures.locating.placement import Placement
-from floatref.measures.locating.placing import place
+from floatref.measures.locating.placing import SURE, place
 from floatref.measures.locating.profile_units import METRE
 from floatref.measures.roughness.agreement import Agreement, cross_correlation
 from floatref.measures.roughness.wavebands import PathSignals
 from floatref.values.profile import Profile
-
-SURE = 0.5
-"""Least correlation over all that both have in common, from which on a place is sure."""
 
 
 @dataclass(frozen=True)
