@@ -1,6 +1,6 @@
 """A page in a browser: zooming draws other data, keys and touch work, the console stays empty."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -26,48 +26,7 @@ INSIDE = """([k, from, to]) => {
 """Whether the solid line of every wheel path has a number there, and whether all of it is a gap.
 
 A place without a bin, undefined, is no gap: the line goes on across it."""
-DRAWN = "performance.getEntriesByName('drawn').length > 0"
 DATA = "k => { drawNow(); return panels[k].plot.data.map((row) => [...row]); }"
-PHONE = {
-    "viewport": {"width": 390, "height": 844},
-    "is_mobile": True,
-    "has_touch": True,
-    "device_scale_factor": 2,
-}
-
-
-@pytest.fixture
-def opened(chromium: Any) -> Iterator[Callable[..., Any]]:
-    """Return what opens a page; at the end its console has to be empty."""
-    contexts, said = [], []
-
-    def call(path: Path, **options: Any) -> Any:
-        context = chromium.new_context(**({"viewport": {"width": 1200, "height": 900}} | options))
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda message: said.append(message.text))
-        page.on("pageerror", lambda error: said.append(str(error)))
-        page.on("request", lambda request: said.append(request.url) if "http" in request.url else 0)
-        page.goto(path.as_uri())
-        page.wait_for_function(DRAWN)
-        return page
-
-    yield call
-    for context in contexts:
-        context.close()
-    assert said == []
-
-
-@pytest.fixture(scope="module")
-def pages(
-    tmp_path_factory: pytest.TempPathFactory, road: Callable[..., Profile], drive: Recording
-) -> Path:
-    """Return the folder of a page of two runs with a recording, and of that recording."""
-    folder = tmp_path_factory.mktemp("pages")
-    runs = {"first": road(), "late": road(shift=-8)}
-    write_profile_page(folder / "runs.html", runs, PageOptions(), drive)
-    write_recording_page(folder / "drive.html", "drive", drive, PageOptions(most_mb=1.0))
-    return folder
 
 
 def text(page: Any) -> str:
@@ -233,38 +192,3 @@ def test_a_page_of_next_to_nothing_opens(opened: Callable[..., Any], tmp_path: P
     lone = Recording((Channel.of("gnss_height", [1.0], StampedClock.of([6.0])),))
     write_recording_page(tmp_path / "lone.html", "lone", lone, PageOptions())
     assert "every one of the samples" in text(opened(tmp_path / "lone.html"))
-
-
-@pytest.mark.parametrize("name", ["first", "northbound_right_lane_2026-11-26_run-10.parquet"])
-def test_a_phone_shows_the_iri_and_its_share_without_a_movement(
-    opened: Callable[..., Any], road: Callable[..., Profile], tmp_path: Path, name: str
-) -> None:
-    runs = {name: road(), "late": road(shift=-8)}
-    write_profile_page(tmp_path / "runs.html", runs, PageOptions())
-    page = opened(tmp_path / "runs.html", **PHONE)
-    cells = page.locator("table tbody tr >> nth=0").locator("td")
-    heads = page.locator("table thead th").all_text_contents()
-    for k, title in ((1, "wheel path"), (2, "IRI of valid points (m/km)"), (3, "share")):
-        assert heads[k].startswith(title)
-        box = cells.nth(k).bounding_box()
-        assert box["x"] >= 0.0
-        assert box["x"] + box["width"] <= 390.0
-
-
-def test_a_phone_shows_it_and_pans_by_touch(opened: Callable[..., Any], pages: Path) -> None:
-    page = opened(pages / "drive.html", **PHONE)
-    assert page.evaluate("document.documentElement.scrollWidth") <= 390
-    sizes = page.evaluate(
-        "[...document.querySelectorAll('#moves button')].map(b => b.offsetHeight)"
-    )
-    assert min(sizes) >= 44
-    page.evaluate("showPart(10, 20)")
-    page.evaluate("drawNow()")
-    touch = """(xs) => xs.forEach((x, k) => document.querySelector('#picture').dispatchEvent(
-      new PointerEvent(k ? 'pointermove' : 'pointerdown',
-        {pointerId: 1, pointerType: 'touch', clientX: x, clientY: 300, bubbles: true})))"""
-    page.evaluate(touch, [200, 150])
-    begin, end = page.evaluate("[shown.begin, shown.end]")
-    assert begin > 10.5
-    assert end - begin == pytest.approx(10.0)
-    assert page.locator("#map canvas").is_visible()

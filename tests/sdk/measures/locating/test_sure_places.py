@@ -1,7 +1,8 @@
 """A road that shares nothing with the reference is not placed, and one that shares it all is.
 
 Laws: of sixty drawn pairs of unlike roads at most one is placed by chance; a run over the
-reference is placed wherever its axis begins, within 100 m.
+reference is placed wherever its axis begins, within 100 m, with noise of slope up to half of the
+road's own: over 161 m with as much noise as road a line of lag by chance fits as well.
 """
 
 from dataclasses import replace
@@ -46,7 +47,7 @@ def test_of_unlike_roads_next_to_none_is_placed(length_m: float) -> None:
     start_m=st.floats(-100.0, 100.0),
     length_m=st.sampled_from([161.0, 400.0]),
     percent=st.floats(-2.0, 2.0),
-    noise=st.floats(0.0, 1.0),
+    noise=st.floats(0.0, 0.5),
     seed=st.integers(0, 99),
 )
 def test_a_run_over_the_reference_is_placed(roads, start_m, length_m, percent, noise, seed) -> None:
