@@ -70,7 +70,9 @@ enum {
     FR_OUTPUT_FULL = 10,   /* the output has no room; *written is the room that is needed */
     FR_TOO_MANY = 11,      /* more samples in one push than memory can hold */
     FR_INCOMPLETE_SET = 12, /* not all signals of the set have passed with equally many samples */
-    FR_OTHER_SPEED = 13    /* signals of one set were given different speeds */
+    FR_OTHER_SPEED = 13,   /* signals of one set were given different speeds */
+    FR_TOO_LATE = 14,      /* the sample of a GNSS reading has been filtered, or has a reading */
+    FR_QUEUE_FULL = 15     /* more GNSS readings wait than the setting allows */
 };
 
 /* What happens to a missing (NaN) sample. */
@@ -506,6 +508,91 @@ FR_API fr_status fr_screening_push(fr_screening *screening, const fr_real *x, co
 /* End the run, and with it what is open: two spans at most. */
 FR_API fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, size_t capacity,
                                      size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * The extended Kalman filter of chapter 6 for one wheel path: inertial unit, height sensor, encoder
+ * and GNSS in place of both integrations. All in double, in the build for float too: positions of
+ * metres with covariances down to 1e-10 of them have no place in a float.
+ *
+ * Inputs: specific force forward, to the side and up in m/s^2, rates about the same axes in rad/s,
+ * the height in m. With `missing` FR_MISSING_BRIDGED a missing sample of the inertial unit is taken
+ * as zero, and the noise of a missing acceleration holds up to the end of its sub-block of 10 ms;
+ * a missing height is one that is not observed.
+ *
+ * Readings of GNSS name the sample next to them in time, and may come in any order: before that
+ * sample, or up to `late_s` behind it, which the output waits for. Without readings for half a
+ * second constants take their place.
+ */
+typedef struct fr_kalman_noise {
+    double acceleration;         /* vertical acceleration, in m/s^2/sqrt(Hz); 4.65e-5 */
+    double acceleration_walk;    /* of its bias, in m/s^2/sqrt(s); 1e-4 */
+    double roll_rate;            /* in rad/s/sqrt(Hz); 1.34e-5, as the two below */
+    double pitch_rate;
+    double yaw_rate;
+    double roll_rate_walk;       /* of its bias, in rad/s/sqrt(s); 9.27e-6 */
+    double pitch_rate_walk;      /* 4.86e-4 */
+    double missing_acceleration; /* in place of `acceleration` where that is missing; 0.3 */
+    double lean_rad;             /* 1-sigma of the lean of the accelerometer's axis; 0.01 */
+    double gnss_height_m;        /* 1-sigma of a reading at 20 Hz or less; 0.012 */
+    double gnss_velocity_mps;    /* 0.03 */
+    double gnss_pitch_rad;       /* 2.09e-3 */
+    double gnss_roll_rad;        /* 3.49e-3 */
+    double gnss_height_walk;     /* slow error of the GNSS height, in m/sqrt(s); 1.5e-3 */
+    double constant_height;      /* what stays the same for want of a reading, in m/sqrt(Hz); 0.04 */
+    double constant_velocity;    /* in m/s/sqrt(Hz); 0.08 */
+    double constant_pitch;       /* in rad/sqrt(Hz); 0.0195 */
+    double constant_roll;        /* in rad/sqrt(Hz); 0.0078 */
+    double reflection;           /* the height sensor at a stop, in m/sqrt(Hz); 2.64e-5 */
+    double height_m;             /* 1-sigma of a reading of the height sensor; 4e-5 */
+} fr_kalman_noise;
+
+typedef struct fr_kalman_filter_config {
+    fr_travel_speed_config travel; /* rate and encoder; no default but for the window */
+    fr_kalman_noise noise;
+    double gravity_mps2;           /* 9.80665 */
+    double antenna_m[3];           /* from the reference point: forward, to the side, up; 0 */
+    double reflection_speed_mps;   /* the vehicle is stationary below this speed; 0.16 / 3.6 */
+    double late_s;                 /* how late a reading may come; 0 */
+    int32_t gnss;                  /* 1: height and velocity of GNSS, 0: constants; 1 */
+    int32_t attitude;              /* 1: pitch and roll of GNSS, 0: constants; 1 */
+    int32_t reflects;              /* 1: the height sensor in place of GNSS heights at a stop; 1 */
+    int32_t readings;              /* GNSS readings that may wait at a time; 64 */
+    int32_t missing;               /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; ..._REFUSED */
+    int32_t reserved;              /* 0 */
+} fr_kalman_filter_config;
+
+/* The samples of a push; all of them have as many. */
+typedef struct fr_imu {
+    const double *longitudinal, *lateral, *vertical; /* specific force in m/s^2 */
+    const double *roll_rate, *pitch_rate, *yaw_rate; /* in rad/s */
+} fr_imu;
+
+typedef struct fr_kalman_filter fr_kalman_filter;
+
+/* Defaults of the variant with GNSS, attitude and reflection (6.6.3), and of that without GNSS
+ * (6.6.5), whose noise differs. */
+FR_API fr_kalman_filter_config fr_kalman_filter_defaults(void);
+FR_API fr_kalman_filter_config fr_kalman_filter_inertial_defaults(void);
+FR_API size_t fr_kalman_filter_size(const fr_kalman_filter_config *config);
+FR_API fr_status fr_kalman_filter_init(void *memory, size_t size,
+                                       const fr_kalman_filter_config *config,
+                                       fr_kalman_filter **out);
+/* A reading of height in m, vertical velocity in m/s, pitch and roll in rad; all but the height may
+ * be NaN. `variances` are those of the four, NaN or the whole NULL for those of the settings; those
+ * of readings that come faster than 22 Hz count for less. Give readings with fixed ambiguities
+ * alone. FR_TOO_LATE if its sample has been filtered or has a reading, FR_QUEUE_FULL if too many
+ * wait, FR_WRONG_ORDER if the settings are without GNSS. */
+FR_API fr_status fr_kalman_filter_push_gnss(fr_kalman_filter *filter, int64_t sample,
+                                            const double values[4], const double variances[4]);
+/* The floating reference height in m of every sample, `late_s` behind the input. */
+FR_API fr_status fr_kalman_filter_push(fr_kalman_filter *filter, const fr_imu *imu,
+                                       const double *height, const int64_t *counts, size_t count,
+                                       double *reference_height, size_t capacity, size_t *written);
+/* End the run: the samples that still wait. */
+FR_API fr_status fr_kalman_filter_finish(fr_kalman_filter *filter, double *reference_height,
+                                         size_t capacity, size_t *written);
+/* Readings left out so far, because they were ten times their expected 1-sigma off, by kind. */
+FR_API fr_status fr_kalman_filter_left_out(const fr_kalman_filter *filter, int64_t count[4]);
 
 #ifdef __cplusplus
 }

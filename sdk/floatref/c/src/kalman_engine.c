@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * From samples and readings as they come to the filter, in the order of time.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "kalman_engine.h"
+
+#define NODES_PER_S 100.0
+/* The inputs of the filter are means over a step: below this rate they are no motion. */
+#define SLOWEST_HZ 2.0
+#define LATEST_S 60.0
+#define MOST_READINGS 100000
+/* Speeds below which a vehicle is stationary, at most, in m/s. */
+#define FASTEST_STOP_MPS 10.0
+
+static int are_densities(const double *values, size_t count)
+{
+    int possible = 1;
+    for (size_t i = 0; i < count; i++)
+        possible &= values[i] >= 0.0 && values[i] <= FR_K_LARGEST;
+    return possible;
+}
+
+/* Process noise may be zero, that of a reading not: the covariance could have no inverse. */
+static int noise_is_possible(const fr_kalman_noise *n)
+{
+    const double process[] = {n->acceleration,   n->acceleration_walk,    n->roll_rate,
+                              n->pitch_rate,     n->yaw_rate,             n->roll_rate_walk,
+                              n->pitch_rate_walk, n->missing_acceleration, n->lean_rad,
+                              n->gnss_height_walk, n->height_m};
+    const double readings[] = {n->gnss_height_m,   n->gnss_velocity_mps, n->gnss_pitch_rad,
+                               n->gnss_roll_rad,   n->constant_height,   n->constant_velocity,
+                               n->constant_pitch,  n->constant_roll,     n->reflection};
+    int possible = are_densities(process, sizeof process / sizeof *process) &&
+                   are_densities(readings, sizeof readings / sizeof *readings);
+    for (size_t i = 0; i < sizeof readings / sizeof *readings; i++)
+        possible &= readings[i] >= FR_K_SMALLEST;
+    return possible;
+}
+
+static int arm_is_possible(const double *arm)
+{
+    int possible = 1;
+    for (int i = 0; i < 3; i++)
+        possible &= fabs(arm[i]) <= FR_K_LARGEST;
+    return possible;
+}
+
+static int kalman_is_possible(const fr_kalman_filter_config *config)
+{
+    return fr_travel_window(&config->travel) > 0u && config->travel.rate_hz >= SLOWEST_HZ &&
+           noise_is_possible(&config->noise) && arm_is_possible(config->antenna_m) &&
+           fabs(config->gravity_mps2) <= FR_K_LARGEST && config->reflection_speed_mps >= 0.0 &&
+           config->reflection_speed_mps <= FASTEST_STOP_MPS && config->late_s >= 0.0 &&
+           config->late_s <= LATEST_S && fr_one_of(config->gnss, 0, 1) &&
+           fr_one_of(config->attitude, 0, 1) && fr_one_of(config->reflects, 0, 1) &&
+           fr_one_of(config->missing, FR_MISSING_REFUSED, FR_MISSING_BRIDGED) &&
+           fr_one_of(config->readings, 1, MOST_READINGS);
+}
+
+static uint32_t delay_of(const fr_kalman_filter_config *config)
+{
+    return (uint32_t)rint(config->late_s * config->travel.rate_hz);
+}
+
+size_t fr_kalman_engine_room(const fr_kalman_filter_config *config)
+{
+    if (config == NULL || !kalman_is_possible(config))
+        return 0u;
+    return fr_travel_window(&config->travel) * sizeof(int64_t) +
+           delay_of(config) * sizeof(fr_kalman_sample) +
+           (size_t)config->readings * sizeof(fr_kalman_reading);
+}
+
+static int64_t *ring_of(void *room)
+{
+    return (int64_t *)room;
+}
+
+static fr_kalman_sample *samples_of(const fr_kalman_engine *engine, void *room)
+{
+    return (fr_kalman_sample *)(void *)(ring_of(room) + engine->travel.window);
+}
+
+fr_kalman_reading *fr_kalman_readings(const fr_kalman_engine *engine, void *room)
+{
+    return (fr_kalman_reading *)(void *)(samples_of(engine, room) + engine->delay);
+}
+
+static void set_model(fr_kalman_model *model, const fr_kalman_filter_config *config)
+{
+    const fr_kalman_noise *n = &config->noise;
+    model->step = 1.0 / config->travel.rate_hz;
+    model->sub_block = (int64_t)rint(1.0 / (NODES_PER_S * model->step));
+    model->sub_block = model->sub_block > 0 ? model->sub_block : 1;
+    model->gravity = config->gravity_mps2;
+    (void)memcpy(model->arm, config->antenna_m, sizeof model->arm);
+    model->white = n->acceleration * n->acceleration;
+    model->white_roll = n->roll_rate * n->roll_rate;
+    model->white_pitch = n->pitch_rate * n->pitch_rate;
+    model->white_yaw = n->yaw_rate * n->yaw_rate;
+    model->walk = n->acceleration_walk * n->acceleration_walk;
+    model->walk_roll = n->roll_rate_walk * n->roll_rate_walk;
+    model->walk_pitch = n->pitch_rate_walk * n->pitch_rate_walk;
+    model->lost_white = n->missing_acceleration * n->missing_acceleration;
+    model->lean = n->lean_rad * n->lean_rad;
+}
+
+void fr_kalman_engine_set(fr_kalman_engine *engine, const fr_kalman_filter_config *config)
+{
+    set_model(&engine->model, config);
+    fr_kalman_references_set(&engine->references, &engine->model, config);
+    fr_travel_set(&engine->travel, &config->travel);
+    fr_kalman_begin(&engine->state, 0.0, config->noise.lean_rad);
+    engine->metres_per_count = config->travel.metres_per_count;
+    engine->furthest = INT64_MIN;
+    engine->delay = delay_of(config);
+    engine->room = (uint32_t)config->readings;
+    engine->missing = config->missing;
+}
+
+/* A missing input is taken as zero, and what was missing is said. */
+static int fill(fr_kalman_input *input)
+{
+    double *all[] = {&input->x, &input->y, &input->z, &input->roll_rate, &input->pitch_rate,
+                     &input->yaw_rate};
+    int missing = 0;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        int gone = *all[i] != *all[i];
+        *all[i] = gone ? 0.0 : *all[i];
+        missing |= gone;
+    }
+    return missing;
+}
+
+/* Let go of the first reading. */
+static void drop_reading(fr_kalman_engine *engine, fr_kalman_reading *readings)
+{
+    engine->held--;
+    (void)memmove(readings, readings + 1, engine->held * sizeof *readings);
+}
+
+static int find_observation(fr_kalman_engine *engine, void *room, const fr_kalman_sample *sample,
+                            double speed, fr_kalman_observation *observed)
+{
+    fr_kalman_reading *readings = fr_kalman_readings(engine, room);
+    int read = engine->held > 0u && readings[0].at == engine->state.latest;
+    double distance_m = (double)sample->count * engine->metres_per_count;
+    int seen = fr_kalman_schedule(&engine->references, engine->state.latest, sample, speed,
+                                  distance_m, read ? readings : NULL, observed);
+    if (read != 0)
+        drop_reading(engine, readings);
+    return seen;
+}
+
+static double speed_at(fr_kalman_engine *engine, void *room, int64_t count)
+{
+    fr_real speed = 0;
+    fr_travel_speeds(&engine->travel, ring_of(room), &count, 0u, 1u, &speed);
+    fr_travel_keep(&engine->travel, ring_of(room), &count, 1u);
+    return (double)speed;
+}
+
+static void filter_sample(fr_kalman_engine *engine, void *room, const fr_kalman_sample *sample,
+                          fr_kalman_step *step, fr_kalman_node *node)
+{
+    fr_kalman_state *state = &engine->state;
+    fr_kalman_input input = sample->input;
+    int lost = input.z != input.z, seen;
+    fr_kalman_observation observed;
+    step->missing = fill(&input);
+    if (state->started == 0)
+        state->x[FR_K_HEIGHT] = sample->height == sample->height ? sample->height : 0.0;
+    fr_kalman_advance(&engine->model, state, &input, lost);
+    step->speed = speed_at(engine, room, sample->count);
+    seen = find_observation(engine, room, sample, step->speed, &observed);
+    step->is_node = seen || fr_kalman_ends_sub_block(&engine->model, state);
+    if (step->is_node != 0)
+        fr_kalman_make_node(&engine->model, state, seen ? &observed : NULL, node);
+    step->reference_height = state->x[FR_K_HEIGHT];
+    step->height = sample->height;
+    step->count = sample->count;
+    step->at = state->latest;
+}
+
+int fr_kalman_engine_take(fr_kalman_engine *engine, void *room, const fr_kalman_sample *sample,
+                          fr_kalman_step *step, fr_kalman_node *node)
+{
+    fr_kalman_sample now = *sample, *slot = &now;
+    int ready = engine->pushed >= (int64_t)engine->delay;
+    if (engine->delay > 0u) {
+        slot = samples_of(engine, room) + engine->pushed % (int64_t)engine->delay;
+        now = *slot;
+        *slot = *sample;
+    }
+    engine->pushed++;
+    engine->furthest = sample->count > engine->furthest ? sample->count : engine->furthest;
+    if (ready != 0)
+        filter_sample(engine, room, &now, step, node);
+    return ready;
+}
+
+int fr_kalman_engine_drain(fr_kalman_engine *engine, void *room, fr_kalman_step *step,
+                           fr_kalman_node *node)
+{
+    int64_t next = engine->state.latest + 1;
+    if (next >= engine->pushed)
+        return 0;
+    filter_sample(engine, room, samples_of(engine, room) + next % (int64_t)engine->delay, step,
+                  node);
+    return 1;
+}
+
+size_t fr_kalman_engine_waiting(const fr_kalman_engine *engine)
+{
+    return (size_t)(engine->pushed - engine->state.latest - 1);
+}
+
+size_t fr_kalman_engine_ready(const fr_kalman_engine *engine, size_t count)
+{
+    size_t waiting = fr_kalman_engine_waiting(engine) + count;
+    return waiting > engine->delay ? waiting - engine->delay : 0u;
+}

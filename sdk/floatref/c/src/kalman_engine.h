@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * The Kalman filter of one wheel path with all that it needs around it: the wait for late GNSS
+ * readings, travel speed, the schedule of observations. The owner gives room for its arrays.
+ */
+#ifndef FR_KALMAN_ENGINE_H
+#define FR_KALMAN_ENGINE_H
+
+#include "kalman_references.h"
+#include "travel.h"
+
+/* Settings, inputs and readings are no larger than this in SI units, and what divides is no smaller
+ * than the other. */
+#define FR_K_LARGEST 1e9
+#define FR_K_SMALLEST 1e-9
+
+typedef struct fr_kalman_engine {
+    fr_kalman_model model;
+    fr_kalman_references references;
+    fr_kalman_state state;
+    fr_travel travel;
+    double lean_rad, metres_per_count;
+    int64_t pushed, furthest; /* samples, and the largest count among them */
+    uint32_t delay;           /* samples that wait for late readings */
+    uint32_t room, held;      /* readings that may wait, and that do */
+    int32_t missing;
+} fr_kalman_engine;
+
+/* What comes of one sample, in order. */
+typedef struct fr_kalman_step {
+    double reference_height, height, speed; /* in m and m/s, the height NaN if it is missing */
+    int64_t at, count;
+    int32_t missing; /* whether an input of the inertial unit was */
+    int32_t is_node; /* whether a node has been made */
+} fr_kalman_step;
+
+/* Bytes of its arrays; 0 for a configuration that is not possible. */
+size_t fr_kalman_engine_room(const fr_kalman_filter_config *config);
+
+void fr_kalman_engine_set(fr_kalman_engine *engine, const fr_kalman_filter_config *config);
+
+/* FR_OK if the samples of a push can be taken. */
+fr_status fr_kalman_engine_check(const fr_kalman_engine *engine, const fr_imu *imu,
+                                 const double *height, const int64_t *counts, size_t count);
+
+/* Take a sample of a push that has been checked. Returns 1 if a sample has been filtered, that of
+ * `delay` samples before, with what comes of it. */
+int fr_kalman_engine_take(fr_kalman_engine *engine, void *room, const fr_kalman_sample *sample,
+                          fr_kalman_step *step, fr_kalman_node *node);
+
+/* Filter the next of the samples that still wait at the end of a run; 0 if all are filtered. */
+int fr_kalman_engine_drain(fr_kalman_engine *engine, void *room, fr_kalman_step *step,
+                           fr_kalman_node *node);
+
+/* The readings that wait, in the order of their samples. */
+fr_kalman_reading *fr_kalman_readings(const fr_kalman_engine *engine, void *room);
+
+/* How many samples `count` more would let out. */
+size_t fr_kalman_engine_ready(const fr_kalman_engine *engine, size_t count);
+
+/* Number of samples that still wait. */
+size_t fr_kalman_engine_waiting(const fr_kalman_engine *engine);
+
+/* Hold a GNSS reading until its sample is filtered. */
+fr_status fr_kalman_engine_read(fr_kalman_engine *engine, void *room, int64_t sample,
+                                const double *values, const double *variances);
+
+/* Sample i of a push, gravity removed. */
+fr_kalman_sample fr_kalman_sample_of(const fr_kalman_engine *engine, const fr_imu *imu,
+                                     const double *height, const int64_t *counts, size_t i);
+
+#endif
