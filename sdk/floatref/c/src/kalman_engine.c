@@ -65,23 +65,24 @@ static uint32_t delay_of(const fr_kalman_filter_config *config)
     return (uint32_t)rint(config->late_s * config->travel.rate_hz);
 }
 
+/* Counts that are held: the sample that is filtered needs the one a window before. */
+static size_t counts_of(uint32_t window, uint32_t delay)
+{
+    return (size_t)window + delay + 1u;
+}
+
 size_t fr_kalman_engine_room(const fr_kalman_filter_config *config)
 {
     if (config == NULL || !kalman_is_possible(config))
         return 0u;
-    return fr_travel_window(&config->travel) * sizeof(int64_t) +
+    return counts_of(fr_travel_window(&config->travel), delay_of(config)) * sizeof(int64_t) +
            delay_of(config) * sizeof(fr_kalman_sample) +
            (size_t)config->readings * sizeof(fr_kalman_reading);
 }
 
-static int64_t *ring_of(void *room)
-{
-    return (int64_t *)room;
-}
-
 static fr_kalman_sample *samples_of(const fr_kalman_engine *engine, void *room)
 {
-    return (fr_kalman_sample *)(void *)(ring_of(room) + engine->travel.window);
+    return (fr_kalman_sample *)(void *)((int64_t *)room + counts_of(engine->window, engine->delay));
 }
 
 fr_kalman_reading *fr_kalman_readings(const fr_kalman_engine *engine, void *room)
@@ -112,10 +113,12 @@ void fr_kalman_engine_set(fr_kalman_engine *engine, const fr_kalman_filter_confi
 {
     set_model(&engine->model, config);
     fr_kalman_references_set(&engine->references, &engine->model, config);
-    fr_travel_set(&engine->travel, &config->travel);
     fr_kalman_begin(&engine->state, 0.0, config->noise.lean_rad);
     engine->metres_per_count = config->travel.metres_per_count;
     engine->furthest = INT64_MIN;
+    engine->window = fr_travel_window(&config->travel);
+    engine->duration_s = (double)engine->window / config->travel.rate_hz;
+    engine->back = config->travel.back;
     engine->delay = delay_of(config);
     engine->room = (uint32_t)config->readings;
     engine->missing = config->missing;
@@ -142,25 +145,34 @@ static void drop_reading(fr_kalman_engine *engine, fr_kalman_reading *readings)
     (void)memmove(readings, readings + 1, engine->held * sizeof *readings);
 }
 
-static int find_observation(fr_kalman_engine *engine, void *room, const fr_kalman_sample *sample,
-                            double speed, fr_kalman_observation *observed)
+static int find_observation(fr_kalman_engine *engine, void *room, double height, double speed,
+                            fr_kalman_observation *observed)
 {
     fr_kalman_reading *readings = fr_kalman_readings(engine, room);
-    int read = engine->held > 0u && readings[0].at == engine->state.latest;
-    double distance_m = (double)sample->count * engine->metres_per_count;
-    int seen = fr_kalman_schedule(&engine->references, engine->state.latest, sample, speed,
-                                  distance_m, read ? readings : NULL, observed);
+    int64_t at = engine->state.latest;
+    double distance_m =
+        (double)fr_kalman_engine_count(engine, room, at) * engine->metres_per_count;
+    int read = engine->held > 0u && readings[0].at == at;
+    int seen = fr_kalman_schedule(&engine->references, at, height, speed, distance_m,
+                                  read ? readings : NULL, observed);
     if (read != 0)
         drop_reading(engine, readings);
     return seen;
 }
 
-static double speed_at(fr_kalman_engine *engine, void *room, int64_t count)
+int64_t fr_kalman_engine_count(const fr_kalman_engine *engine, const void *room, int64_t at)
 {
-    fr_real speed = 0;
-    fr_travel_speeds(&engine->travel, ring_of(room), &count, 0u, 1u, &speed);
-    fr_travel_keep(&engine->travel, ring_of(room), &count, 1u);
-    return (double)speed;
+    const int64_t *ring = (const int64_t *)room;
+    int64_t size = (int64_t)counts_of(engine->window, engine->delay);
+    return at < 0 ? engine->first : ring[at % size];
+}
+
+/* (5.6): before the run the vehicle is stationary. */
+double fr_kalman_engine_speed(const fr_kalman_engine *engine, const void *room, int64_t at)
+{
+    int64_t progress = fr_kalman_engine_count(engine, room, at) -
+                       fr_kalman_engine_count(engine, room, at - (int64_t)engine->window);
+    return (double)progress * engine->metres_per_count / engine->duration_s;
 }
 
 static void filter_sample(fr_kalman_engine *engine, void *room, const fr_kalman_sample *sample,
@@ -174,29 +186,38 @@ static void filter_sample(fr_kalman_engine *engine, void *room, const fr_kalman_
     if (state->started == 0)
         state->x[FR_K_HEIGHT] = sample->height == sample->height ? sample->height : 0.0;
     fr_kalman_advance(&engine->model, state, &input, lost);
-    step->speed = speed_at(engine, room, sample->count);
-    seen = find_observation(engine, room, sample, step->speed, &observed);
+    step->speed = fr_kalman_engine_speed(engine, room, state->latest);
+    seen = find_observation(engine, room, sample->height, step->speed, &observed);
     step->is_node = seen || fr_kalman_ends_sub_block(&engine->model, state);
     if (step->is_node != 0)
         fr_kalman_make_node(&engine->model, state, seen ? &observed : NULL, node);
     step->reference_height = state->x[FR_K_HEIGHT];
     step->height = sample->height;
-    step->count = sample->count;
     step->at = state->latest;
+    step->count = fr_kalman_engine_count(engine, room, step->at);
+}
+
+static void keep_count(fr_kalman_engine *engine, void *room, int64_t count)
+{
+    int64_t *ring = (int64_t *)room;
+    engine->first = engine->pushed == 0 ? count : engine->first;
+    ring[engine->pushed % (int64_t)counts_of(engine->window, engine->delay)] = count;
+    engine->furthest = count > engine->furthest ? count : engine->furthest;
 }
 
 int fr_kalman_engine_take(fr_kalman_engine *engine, void *room, const fr_kalman_sample *sample,
-                          fr_kalman_step *step, fr_kalman_node *node)
+                          int64_t count, fr_kalman_step *step, fr_kalman_node *node)
 {
-    fr_kalman_sample now = *sample, *slot = &now;
+    fr_kalman_sample now = *sample;
     int ready = engine->pushed >= (int64_t)engine->delay;
+    keep_count(engine, room, count);
     if (engine->delay > 0u) {
-        slot = samples_of(engine, room) + engine->pushed % (int64_t)engine->delay;
+        fr_kalman_sample *slot =
+            samples_of(engine, room) + engine->pushed % (int64_t)engine->delay;
         now = *slot;
         *slot = *sample;
     }
     engine->pushed++;
-    engine->furthest = sample->count > engine->furthest ? sample->count : engine->furthest;
     if (ready != 0)
         filter_sample(engine, room, &now, step, node);
     return ready;

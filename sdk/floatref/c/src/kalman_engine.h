@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The Kalman filter of one wheel path with all that it needs around it: the wait for late GNSS
- * readings, travel speed, the schedule of observations. The owner gives room for its arrays.
+ * readings, travel speed, the schedule of observations. Its arrays lie in the room that the owner
+ * gives: counts, samples and readings that wait.
  */
 #ifndef FR_KALMAN_ENGINE_H
 #define FR_KALMAN_ENGINE_H
@@ -18,12 +19,11 @@ typedef struct fr_kalman_engine {
     fr_kalman_model model;
     fr_kalman_references references;
     fr_kalman_state state;
-    fr_travel travel;
-    double lean_rad, metres_per_count;
-    int64_t pushed, furthest; /* samples, and the largest count among them */
-    uint32_t delay;           /* samples that wait for late readings */
-    uint32_t room, held;      /* readings that may wait, and that do */
-    int32_t missing;
+    double metres_per_count, duration_s; /* of the window of the travel speed */
+    int64_t pushed, first, furthest; /* samples, the first count, and the largest one */
+    uint32_t window, delay;          /* samples: of that window, and that wait for late readings */
+    uint32_t room, held;             /* readings that may wait, and that do */
+    int32_t missing, back;
 } fr_kalman_engine;
 
 /* What comes of one sample, in order. */
@@ -39,6 +39,10 @@ size_t fr_kalman_engine_room(const fr_kalman_filter_config *config);
 
 void fr_kalman_engine_set(fr_kalman_engine *engine, const fr_kalman_filter_config *config);
 
+/* Travel speed in m/s at a sample, and its count: the ring of counts goes back far enough. */
+double fr_kalman_engine_speed(const fr_kalman_engine *engine, const void *room, int64_t at);
+int64_t fr_kalman_engine_count(const fr_kalman_engine *engine, const void *room, int64_t at);
+
 /* FR_OK if the samples of a push can be taken. */
 fr_status fr_kalman_engine_check(const fr_kalman_engine *engine, const fr_imu *imu,
                                  const double *height, const int64_t *counts, size_t count);
@@ -46,7 +50,7 @@ fr_status fr_kalman_engine_check(const fr_kalman_engine *engine, const fr_imu *i
 /* Take a sample of a push that has been checked. Returns 1 if a sample has been filtered, that of
  * `delay` samples before, with what comes of it. */
 int fr_kalman_engine_take(fr_kalman_engine *engine, void *room, const fr_kalman_sample *sample,
-                          fr_kalman_step *step, fr_kalman_node *node);
+                          int64_t count, fr_kalman_step *step, fr_kalman_node *node);
 
 /* Filter the next of the samples that still wait at the end of a run; 0 if all are filtered. */
 int fr_kalman_engine_drain(fr_kalman_engine *engine, void *room, fr_kalman_step *step,
@@ -67,6 +71,6 @@ fr_status fr_kalman_engine_read(fr_kalman_engine *engine, void *room, int64_t sa
 
 /* Sample i of a push, gravity removed. */
 fr_kalman_sample fr_kalman_sample_of(const fr_kalman_engine *engine, const fr_imu *imu,
-                                     const double *height, const int64_t *counts, size_t i);
+                                     const double *height, size_t i);
 
 #endif

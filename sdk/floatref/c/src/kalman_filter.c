@@ -90,8 +90,8 @@ static void run_filter(fr_kalman_filter *filter, const fr_imu *imu, const double
     fr_kalman_node node;
     size_t made = 0;
     for (size_t i = 0; i < count; i++) {
-        fr_kalman_sample sample = fr_kalman_sample_of(engine, imu, height, counts, i);
-        if (fr_kalman_engine_take(engine, room_of(filter), &sample, &step, &node) != 0)
+        fr_kalman_sample sample = fr_kalman_sample_of(engine, imu, height, i);
+        if (fr_kalman_engine_take(engine, room_of(filter), &sample, counts[i], &step, &node) != 0)
             heights[made++] = step.reference_height;
     }
 }

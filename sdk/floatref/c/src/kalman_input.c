@@ -43,18 +43,17 @@ fr_status fr_kalman_engine_check(const fr_kalman_engine *engine, const fr_imu *i
     if (status == FR_OK)
         status = check_doubles(height, count, engine->missing);
     if (status == FR_OK)
-        status = fr_check_counts(counts, count, engine->travel.back, engine->furthest);
+        status = fr_check_counts(counts, count, engine->back, engine->furthest);
     return status;
 }
 
 fr_kalman_sample fr_kalman_sample_of(const fr_kalman_engine *engine, const fr_imu *imu,
-                                     const double *height, const int64_t *counts, size_t i)
+                                     const double *height, size_t i)
 {
     fr_kalman_sample sample = {{imu->longitudinal[i], imu->lateral[i],
                                 imu->vertical[i] - engine->model.gravity, imu->roll_rate[i],
                                 imu->pitch_rate[i], imu->yaw_rate[i]},
-                               height[i],
-                               counts[i]};
+                               height[i]};
     return sample;
 }
 

@@ -176,17 +176,17 @@ static int take_standing(fr_kalman_references *r, int64_t at, double height,
     return 1;
 }
 
-int fr_kalman_schedule(fr_kalman_references *r, int64_t at, const fr_kalman_sample *sample,
-                       double speed, double distance_m, const fr_kalman_reading *reading,
+int fr_kalman_schedule(fr_kalman_references *r, int64_t at, double height, double speed,
+                       double distance_m, const fr_kalman_reading *reading,
                        fr_kalman_observation *out)
 {
     int standing = r->reflects != 0 && speed < r->reflection_speed, seen;
     int quiet = is_quiet(r, at, distance_m);
     observe_nothing(out);
-    r->start = at == 0 && sample->height == sample->height ? sample->height : r->start;
+    r->start = at == 0 && height == height ? height : r->start;
     seen = take_absolute(r, at, reading, !standing, out);
     if (standing != 0)
-        seen |= take_standing(r, at, sample->height, out);
+        seen |= take_standing(r, at, height, out);
     else
         r->stands = 0;
     if (quiet != 0 && standing == 0)

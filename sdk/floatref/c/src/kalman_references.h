@@ -20,7 +20,6 @@ typedef struct fr_kalman_reading {
 typedef struct fr_kalman_sample {
     fr_kalman_input input;
     double height;
-    int64_t count;
 } fr_kalman_sample;
 
 /* What the schedule remembers depends on samples and readings that came before alone. */
@@ -45,10 +44,9 @@ typedef struct fr_kalman_references {
 void fr_kalman_references_set(fr_kalman_references *references, const fr_kalman_model *model,
                               const fr_kalman_filter_config *config);
 
-/* Say what is observed at a sample, at a travel speed and a distance in m; 0 if nothing is. The
- * reading is NULL where there is none. */
-int fr_kalman_schedule(fr_kalman_references *references, int64_t at, const fr_kalman_sample *sample,
-                       double speed, double distance_m, const fr_kalman_reading *reading,
+/* Say what is observed at a sample, at its height, travel speed and distance in m; 0 if nothing is.
+ * The reading is NULL where there is none. */
+int fr_kalman_schedule(fr_kalman_references *references, int64_t at, double height, double speed, double distance_m, const fr_kalman_reading *reading,
                        fr_kalman_observation *out);
 
 /* Say what to observe at the last sample of a run, where constants count for what is left of their
