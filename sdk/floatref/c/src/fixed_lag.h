@@ -8,9 +8,9 @@
  *
  * Order of calls. For each node, once it is filtered: fr_lag_begin_node(), fr_lag_update() for each
  * scalar update in order, fr_lag_end_node(). Points come before: fr_lag_point() with their samples,
- * in the span that they lie in; fr_lag_end_node() says how many of them lie before the node. When
- * the clock has given `released` points more, fr_lag_release(). At the end of the run a last node
- * at the last sample, unless there is one, then fr_lag_finish().
+ * in the span that they lie in; fr_lag_end_node() takes how many of them lie before the node. If it
+ * returns 1, fr_lag_release() follows at once. At the end of the run comes a last node at the last
+ * sample, of kind 0, unless there is one; then fr_lag_finish().
  *
  * Everything is double, in both builds: see docs/c-library.md. Objects hold no pointer, so the
  * owner makes an fr_lag_view on its stack in each call.
@@ -44,6 +44,13 @@ typedef struct fr_lag_shape {
     double noise_m;      /* 1-sigma of a reading of the height sensor, which passes as it is */
     double tolerance_m;  /* points that readings to come may change by more, 1-sigma, are flagged */
 } fr_lag_shape;
+
+/* Numbers of 8 bytes of one node, update and mark; how many a section has, and marks and points in
+ * all. */
+typedef struct fr_lag_sizes {
+    size_t node, update, mark;
+    size_t nodes, updates, marks, points;
+} fr_lag_sizes;
 
 /* A point before it is smoothed: elevation from the height of the node before and `since` its
  * time s, at that node's height and velocity of zero. */
@@ -79,29 +86,34 @@ typedef struct fr_lag_link {
 
 typedef struct fr_lag_section {
     int32_t nodes, updates;
-    int64_t first_mark, marks; /* of all marks of the run; how many */
-    int64_t points;            /* of the run, up to its end */
+    int64_t first_mark; /* its first of all marks of the run */
 } fr_lag_section;
+
+/* The node at which the oldest section begins, and what was given out there. */
+typedef struct fr_lag_origin {
+    double rows[2 * FR_LAG_STATES]; /* of the covariance: height, velocity */
+    double height, velocity, time_s, distance_m, shift_m;
+    int32_t known; /* 0 before the first section has come out */
+    int32_t flags; /* for the next point */
+} fr_lag_origin;
 
 /* The state between two calls. Arrays lie in the room behind the owner, see fr_lag_numbers(). */
 typedef struct fr_lag {
     fr_lag_shape shape;
+    fr_lag_sizes sizes;
     fr_lag_link link;
     fr_lag_section sections[FR_LAG_SECTIONS]; /* places, used in turn */
-    int32_t oldest;      /* place of the oldest section */
-    int32_t held;        /* sections with the one in the making, 1 to 3 */
-    int32_t kind;        /* of the node in the making */
-    int32_t stop_open;   /* whether the last stored node is a standstill's record in the making */
-    int32_t has_origin;  /* whether points have come out */
-    int32_t flags;       /* for the next point */
-    int64_t points;      /* written so far */
-    int64_t first_point; /* the oldest that is held */
-    int64_t first_mark, marks; /* the oldest that is held, and how many there were */
-    double time_s;             /* of the last node */
-    double covariance[FR_LAG_STATES * FR_LAG_STATES]; /* at the last node */
-    double origin[2 * FR_LAG_STATES + 4]; /* the node at which the oldest section begins */
-    double shift_m;                       /* correction in m there, as given out */
-    double shown_m;                       /* distance there */
+    fr_lag_origin origin;
+    int32_t oldest; /* place of the oldest section */
+    int32_t held;   /* sections with the one in the making, 1 to 3 */
+    int32_t kind;   /* of the node in the making */
+    int32_t composing;         /* whether the last node stored is a standstill's in the making */
+    int32_t linked;            /* whether there were nodes since the last mark */
+    int32_t first_update;      /* of the node in the making, in its section */
+    int64_t first_point, points; /* the oldest that is held, and how many there were */
+    int64_t first_mark, marks;   /* the same of marks */
+    double time_s, distance_m;   /* of the last node */
+    double covariance[FR_LAG_STATES * FR_LAG_STATES]; /* where the last section ended */
 } fr_lag;
 
 /* What every function takes: made anew in each call of the owner. */
@@ -124,7 +136,8 @@ void fr_lag_begin_node(const fr_lag_view *view, int32_t kind, double span, const
 /* Gain K, innovation over its variance S, 1/S; `row` of H only if the model has none. */
 void fr_lag_update(const fr_lag_view *view, const double *gain, const double *row,
                    double innovation, double information);
-void fr_lag_end_node(const fr_lag_view *view, const fr_lag_node_end *node);
+/* Return whether the oldest section has to come out before the next node. */
+int fr_lag_end_node(const fr_lag_view *view, const fr_lag_node_end *node);
 
 /* Smooth back from the last node, and give out the oldest section. */
 void fr_lag_release(const fr_lag_view *view, fr_lag_output *output);

@@ -17,7 +17,7 @@
 
 #include "object.h"
 
-enum { FR_LAG_SECTIONS = 3 };
+enum { FR_LAG_SECTIONS = 3, FR_LAG_UPDATES = 8 };
 
 /* What happens at a node, bit by bit. */
 enum {
@@ -28,7 +28,7 @@ enum {
 
 typedef struct fr_lag_pace {
     int32_t nodes;    /* stored nodes of a section, 8 or more */
-    int32_t updates;  /* updates of a section */
+    int32_t updates;  /* updates of a section, of which a node has FR_LAG_UPDATES at most */
     int32_t points;   /* points of a section at the fastest speed; four times that are held */
     int32_t stops;    /* standstills of a section that are composed; later ones are stored */
     int32_t patience; /* nodes without a point behind which the vehicle is stationary */
@@ -43,9 +43,9 @@ typedef struct fr_lag_clock {
     int32_t due;                   /* nodes until the filter is where a section has ended, or 0 */
     int32_t sections;              /* that have ended and are held, 0 to 3 */
     int32_t composing;             /* whether the last node is part of a standstill's record */
-    int64_t since_points;          /* points at the last mark */
+    int64_t marked;                /* points at the last mark */
     int64_t points;                /* points at the last node, from the first of the run */
-    int64_t begins[FR_LAG_SECTIONS]; /* points before each section that is held, the oldest first */
+    int64_t ends[FR_LAG_SECTIONS]; /* points at the end of each of those sections, oldest first */
     int64_t released;              /* points that have come out */
 } fr_lag_clock;
 
@@ -53,8 +53,8 @@ typedef struct fr_lag_clock {
 int fr_lag_clock_holds(const fr_lag_clock *clock, const fr_lag_pace *pace, int64_t points);
 
 /* Take the next node, with the points reached before it and the number of its updates, and say
- * what happens there. If it is the `delay`-th behind the end of a third section, or the end itself
- * without delay, `released` goes up: by then the owner has called fr_lag_end_node() for that end. */
+ * what happens there. `released` goes up `delay` nodes behind the end of a third section: at the
+ * node at which fr_lag_end_node() says for that end that points have to come out. */
 int32_t fr_lag_clock_node(fr_lag_clock *clock, const fr_lag_pace *pace, int64_t points,
                           int32_t updates);
 
