@@ -443,6 +443,16 @@ FR_API fr_status fr_matched_high_pass_push(fr_matched_high_pass *matched,
                                            size_t *written);
 
 /* ---------------------------------------------------------------------------------------------
+ * Flags of a point of a smoother, bit by bit; 0 is a valid point.
+ */
+enum {
+    FR_POINT_MISSING = 1,   /* samples are missing since the point before, or its height is */
+    FR_POINT_LEAP = 2,      /* behind or before a leap of the height sensor at a standstill */
+    FR_POINT_UNCERTAIN = 4, /* the 1-sigma is too large for the road */
+    FR_POINT_UNSETTLED = 8  /* the lag was too short: readings behind it may still change the point */
+};
+
+/* ---------------------------------------------------------------------------------------------
  * The International Roughness Index, running over distance (2.1.1). The car starts at the mean
  * slope of the start length, so the first output comes behind that length; the others come one
  * moving average behind their point. Memory: 8 bytes or less per point of the longer of both.

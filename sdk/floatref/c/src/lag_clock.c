@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Sections of half a lag, marks and standstills, by the numbers of nodes and points alone.
+ */
+#include "lag_clock.h"
+
+/* Four times the points of a section: three sections, and a leap or a delay behind them. */
+#define SECTIONS_OF_POINTS 4
+
+int fr_lag_clock_holds(const fr_lag_clock *clock, const fr_lag_pace *pace, int64_t points)
+{
+    return points - clock->released <= SECTIONS_OF_POINTS * (int64_t)pace->points;
+}
+
+/* The oldest section has come out. */
+static void release_section(fr_lag_clock *clock)
+{
+    clock->released = clock->ends[0];
+    clock->sections--;
+    for (int32_t k = 0; k < clock->sections; k++)
+        clock->ends[k] = clock->ends[k + 1];
+}
+
+/* One more node passes the filter, which may be where the third section has ended. */
+static void let_pass(fr_lag_clock *clock)
+{
+    if (clock->due == 0)
+        return;
+    clock->due--;
+    if (clock->due == 0)
+        release_section(clock);
+}
+
+static int may_compose(const fr_lag_clock *clock, const fr_lag_pace *pace)
+{
+    if (clock->empty <= pace->patience)
+        return 0;
+    /* The record begins behind a mark, and one more node has to fit in to end the section. */
+    return clock->composing != 0 || (clock->stops < pace->stops && clock->since_nodes == 0 &&
+                                     clock->nodes + 2 <= pace->nodes);
+}
+
+static int section_ends(const fr_lag_clock *clock, const fr_lag_pace *pace)
+{
+    int64_t before = clock->sections > 0 ? clock->ends[clock->sections - 1] : clock->released;
+    return clock->nodes > pace->delay &&
+           (clock->nodes == pace->nodes || clock->updates + FR_LAG_UPDATES > pace->updates ||
+            clock->points - before >= pace->points);
+}
+
+static void end_section(fr_lag_clock *clock, const fr_lag_pace *pace)
+{
+    clock->ends[clock->sections] = clock->points;
+    clock->sections++;
+    clock->nodes = clock->updates = clock->stops = 0;
+    if (clock->sections < FR_LAG_SECTIONS)
+        return;
+    clock->due = pace->delay;
+    if (clock->due == 0)
+        release_section(clock);
+}
+
+static int mark_is_due(const fr_lag_clock *clock, const fr_lag_pace *pace)
+{
+    int stops = clock->empty == pace->patience && clock->stops < pace->stops;
+    return stops || clock->since_nodes >= pace->mark_nodes ||
+           clock->points - clock->marked >= pace->mark_points;
+}
+
+static int32_t store_node(fr_lag_clock *clock, const fr_lag_pace *pace, int32_t updates)
+{
+    int32_t kind = 0;
+    clock->composing = 0;
+    clock->nodes++;
+    clock->updates += updates;
+    clock->since_nodes++;
+    if (section_ends(clock, pace)) {
+        end_section(clock, pace);
+        kind = FR_LAG_ENDS | FR_LAG_MARK;
+    } else if (mark_is_due(clock, pace)) {
+        kind = FR_LAG_MARK;
+    }
+    if (kind != 0) {
+        clock->since_nodes = 0;
+        clock->marked = clock->points;
+    }
+    return kind;
+}
+
+int32_t fr_lag_clock_node(fr_lag_clock *clock, const fr_lag_pace *pace, int64_t points,
+                          int32_t updates)
+{
+    let_pass(clock);
+    if (points > clock->points)
+        clock->empty = 0;
+    else if (clock->empty <= pace->patience)
+        clock->empty++;
+    clock->points = points;
+    if (!may_compose(clock, pace))
+        return store_node(clock, pace, updates);
+    if (clock->composing == 0) {
+        clock->composing = 1;
+        clock->stops++;
+        clock->nodes++;
+    }
+    return FR_LAG_COMPOSED;
+}
