@@ -604,6 +604,44 @@ FR_API fr_status fr_kalman_filter_finish(fr_kalman_filter *filter, double *refer
 /* Readings left out so far, because they were ten times their expected 1-sigma off, by kind. */
 FR_API fr_status fr_kalman_filter_left_out(const fr_kalman_filter *filter, int64_t count[4]);
 
+/* ---------------------------------------------------------------------------------------------
+ * The Kalman smoother with a fixed lag (6.6.2 to 6.6.5): that filter, smoothed back from readings
+ * that come up to one and a half lags later. Points of the profile over distance come out section
+ * by section, half a lag each. What later readings could still change by more than a tolerance is
+ * flagged FR_POINT_UNSETTLED. Memory grows with the lag; a standstill of any length takes no more.
+ */
+typedef struct fr_kalman_config {
+    fr_kalman_filter_config filter;
+    double interval_m;   /* between points; no default */
+    double lag_s;        /* readings of so much time behind a point are heeded; 60 */
+    double fastest_mps;  /* at a higher speed the lag is shorter; 40 */
+    double gnss_hz;      /* at more readings per second the lag is shorter; 20 */
+    double wavelength_m; /* cut-off of each pass of HPF_B3x2, for the 1-sigma; 105.91 */
+    double tolerance_m;  /* 1-sigma of what may change, above which a point is flagged; 1e-4 */
+} fr_kalman_config;
+
+typedef struct fr_kalman fr_kalman;
+
+FR_API fr_kalman_config fr_kalman_defaults(void);
+FR_API fr_kalman_config fr_kalman_inertial_defaults(void);
+FR_API size_t fr_kalman_size(const fr_kalman_config *config);
+FR_API fr_status fr_kalman_init(void *memory, size_t size, const fr_kalman_config *config,
+                                fr_kalman **out);
+/* As fr_kalman_filter_push_gnss(). */
+FR_API fr_status fr_kalman_push_gnss(fr_kalman *kalman, int64_t sample, const double values[4],
+                                     const double variances[4]);
+/* Elevation in m of the points that are ready, before any high-pass filter, its 1-sigma in m behind
+ * HPF_B3x2, and flags FR_POINT_... of each. FR_OUTPUT_FULL says how many points are ready. A point
+ * whose height is missing is NaN. */
+FR_API fr_status fr_kalman_push(fr_kalman *kalman, const fr_imu *imu, const double *height,
+                                const int64_t *counts, size_t count, fr_real *elevation,
+                                fr_real *sigma, uint8_t *flags, size_t capacity, size_t *written);
+/* End the run: all points that are left. */
+FR_API fr_status fr_kalman_finish(fr_kalman *kalman, fr_real *elevation, fr_real *sigma,
+                                  uint8_t *flags, size_t capacity, size_t *written);
+/* As fr_kalman_filter_left_out(). */
+FR_API fr_status fr_kalman_left_out(const fr_kalman *kalman, int64_t count[4]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -100,6 +100,8 @@ typedef struct fr_kalman_node {
     int64_t at;
     double rise, climb, shift, span;
     int32_t renewed, updated;
+    int32_t observed; /* readings, with those that were left out */
+    int32_t reserved;
     fr_kalman_transition transition;
     fr_kalman_update updates[FR_K_KINDS];
 } fr_kalman_node;
@@ -125,6 +127,10 @@ void fr_kalman_begin_sub_block(fr_kalman_state *state);
 
 /* P <- A P A' + W Q W' over the steps since the last node, (6.10). */
 void fr_kalman_predict(const fr_kalman_model *model, fr_kalman_state *state);
+
+/* Write height, velocity, pitch and roll of A c; the other states stay as they are. */
+void fr_kalman_carry(const fr_kalman_transition *transition, double span, const double *c,
+                     double *out);
 
 /* Write h(x) of (6.48) and H of (C.8) at the latest sample. */
 void fr_kalman_linearize(const fr_kalman_model *model, const fr_kalman_state *state,

@@ -20,8 +20,7 @@ typedef struct spread {
     double both, cross_pitch, cross_roll;
 } spread;
 
-/* Write height, velocity, pitch and roll of A c; the other states stay as they are. */
-static void carry(const fr_kalman_transition *t, double span, const double *c, double *out)
+void fr_kalman_carry(const fr_kalman_transition *t, double span, const double *c, double *out)
 {
     double c3 = c[FR_K_PITCH], c4 = c[FR_K_ROLL], c6 = c[FR_K_ROLL_BIAS], c7 = c[FR_K_PITCH_BIAS];
     double rise = t->height[0] * c3 + t->height[1] * c4 + t->height[2] * c6;
@@ -126,12 +125,12 @@ void fr_kalman_predict(const fr_kalman_model *model, fr_kalman_state *state)
         return;
     /* Column by column A P, then row by row (A P) A'. */
     for (int j = 0; j < FR_K_STATES; j++) {
-        carry(&state->transition, span, state->p[j], column);
+        fr_kalman_carry(&state->transition, span, state->p[j], column);
         for (int i = 0; i < 4; i++)
             carried[i][j] = column[i];
     }
     for (int i = 0; i < 4; i++) {
-        carry(&state->transition, span, carried[i], state->p[i]);
+        fr_kalman_carry(&state->transition, span, carried[i], state->p[i]);
         for (int j = 4; j < FR_K_STATES; j++)
             state->p[i][j] = carried[i][j];
     }

@@ -71,13 +71,23 @@ static size_t counts_of(uint32_t window, uint32_t delay)
     return (size_t)window + delay + 1u;
 }
 
+static size_t bytes_of(uint32_t window, uint32_t delay, uint32_t readings)
+{
+    return counts_of(window, delay) * sizeof(int64_t) + delay * sizeof(fr_kalman_sample) +
+           readings * sizeof(fr_kalman_reading);
+}
+
 size_t fr_kalman_engine_room(const fr_kalman_filter_config *config)
 {
     if (config == NULL || !kalman_is_possible(config))
         return 0u;
-    return counts_of(fr_travel_window(&config->travel), delay_of(config)) * sizeof(int64_t) +
-           delay_of(config) * sizeof(fr_kalman_sample) +
-           (size_t)config->readings * sizeof(fr_kalman_reading);
+    return bytes_of(fr_travel_window(&config->travel), delay_of(config),
+                    (uint32_t)config->readings);
+}
+
+size_t fr_kalman_engine_bytes(const fr_kalman_engine *engine)
+{
+    return bytes_of(engine->window, engine->delay, engine->room);
 }
 
 static fr_kalman_sample *samples_of(const fr_kalman_engine *engine, void *room)
@@ -90,12 +100,23 @@ fr_kalman_reading *fr_kalman_readings(const fr_kalman_engine *engine, void *room
     return (fr_kalman_reading *)(void *)(samples_of(engine, room) + engine->delay);
 }
 
+static int64_t sub_block_of(double step)
+{
+    int64_t samples = (int64_t)rint(1.0 / (NODES_PER_S * step));
+    return samples > 0 ? samples : 1;
+}
+
+double fr_kalman_nodes_hz(const fr_kalman_filter_config *config)
+{
+    double rate_hz = config->travel.rate_hz;
+    return rate_hz / (double)sub_block_of(1.0 / rate_hz);
+}
+
 static void set_model(fr_kalman_model *model, const fr_kalman_filter_config *config)
 {
     const fr_kalman_noise *n = &config->noise;
     model->step = 1.0 / config->travel.rate_hz;
-    model->sub_block = (int64_t)rint(1.0 / (NODES_PER_S * model->step));
-    model->sub_block = model->sub_block > 0 ? model->sub_block : 1;
+    model->sub_block = sub_block_of(model->step);
     model->gravity = config->gravity_mps2;
     (void)memcpy(model->arm, config->antenna_m, sizeof model->arm);
     model->white = n->acceleration * n->acceleration;
@@ -145,7 +166,7 @@ static void drop_reading(fr_kalman_engine *engine, fr_kalman_reading *readings)
     (void)memmove(readings, readings + 1, engine->held * sizeof *readings);
 }
 
-static int find_observation(fr_kalman_engine *engine, void *room, double height, double speed,
+static int find_observation(fr_kalman_engine *engine, void *room, double height,
                             fr_kalman_observation *observed)
 {
     fr_kalman_reading *readings = fr_kalman_readings(engine, room);
@@ -153,6 +174,7 @@ static int find_observation(fr_kalman_engine *engine, void *room, double height,
     double distance_m =
         (double)fr_kalman_engine_count(engine, room, at) * engine->metres_per_count;
     int read = engine->held > 0u && readings[0].at == at;
+    double speed = fr_kalman_engine_speed(engine, room, at);
     int seen = fr_kalman_schedule(&engine->references, at, height, speed, distance_m,
                                   read ? readings : NULL, observed);
     if (read != 0)
@@ -165,6 +187,11 @@ int64_t fr_kalman_engine_count(const fr_kalman_engine *engine, const void *room,
     const int64_t *ring = (const int64_t *)room;
     int64_t size = (int64_t)counts_of(engine->window, engine->delay);
     return at < 0 ? engine->first : ring[at % size];
+}
+
+double fr_kalman_engine_height(const fr_kalman_engine *engine, void *room, int64_t at)
+{
+    return samples_of(engine, room)[at % (int64_t)engine->delay].height;
 }
 
 /* (5.6): before the run the vehicle is stationary. */
@@ -186,8 +213,7 @@ static void filter_sample(fr_kalman_engine *engine, void *room, const fr_kalman_
     if (state->started == 0)
         state->x[FR_K_HEIGHT] = sample->height == sample->height ? sample->height : 0.0;
     fr_kalman_advance(&engine->model, state, &input, lost);
-    step->speed = fr_kalman_engine_speed(engine, room, state->latest);
-    seen = find_observation(engine, room, sample->height, step->speed, &observed);
+    seen = find_observation(engine, room, sample->height, &observed);
     step->is_node = seen || fr_kalman_ends_sub_block(&engine->model, state);
     if (step->is_node != 0)
         fr_kalman_make_node(&engine->model, state, seen ? &observed : NULL, node);

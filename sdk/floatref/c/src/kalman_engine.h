@@ -28,7 +28,7 @@ typedef struct fr_kalman_engine {
 
 /* What comes of one sample, in order. */
 typedef struct fr_kalman_step {
-    double reference_height, height, speed; /* in m and m/s, the height NaN if it is missing */
+    double reference_height, height; /* in m, the height NaN if it is missing */
     int64_t at, count;
     int32_t missing; /* whether an input of the inertial unit was */
     int32_t is_node; /* whether a node has been made */
@@ -37,11 +37,20 @@ typedef struct fr_kalman_step {
 /* Bytes of its arrays; 0 for a configuration that is not possible. */
 size_t fr_kalman_engine_room(const fr_kalman_filter_config *config);
 
+/* The same of one that has been set. */
+size_t fr_kalman_engine_bytes(const fr_kalman_engine *engine);
+
+/* Nodes in a second that end a sub-block. */
+double fr_kalman_nodes_hz(const fr_kalman_filter_config *config);
+
 void fr_kalman_engine_set(fr_kalman_engine *engine, const fr_kalman_filter_config *config);
 
 /* Travel speed in m/s at a sample, and its count: the ring of counts goes back far enough. */
 double fr_kalman_engine_speed(const fr_kalman_engine *engine, const void *room, int64_t at);
 int64_t fr_kalman_engine_count(const fr_kalman_engine *engine, const void *room, int64_t at);
+
+/* Height of a sample that waits. */
+double fr_kalman_engine_height(const fr_kalman_engine *engine, void *room, int64_t at);
 
 /* FR_OK if the samples of a push can be taken. */
 fr_status fr_kalman_engine_check(const fr_kalman_engine *engine, const fr_imu *imu,
@@ -68,6 +77,9 @@ size_t fr_kalman_engine_waiting(const fr_kalman_engine *engine);
 /* Hold a GNSS reading until its sample is filtered. */
 fr_status fr_kalman_engine_read(fr_kalman_engine *engine, void *room, int64_t sample,
                                 const double *values, const double *variances);
+
+/* Readings of each kind that were left out. */
+fr_status fr_kalman_engine_left_out(const fr_kalman_engine *engine, int64_t *count);
 
 /* Sample i of a push, gravity removed. */
 fr_kalman_sample fr_kalman_sample_of(const fr_kalman_engine *engine, const fr_imu *imu,

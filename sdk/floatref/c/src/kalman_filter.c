@@ -139,11 +139,7 @@ fr_status fr_kalman_filter_finish(fr_kalman_filter *filter, double *reference_he
 fr_status fr_kalman_filter_left_out(const fr_kalman_filter *filter, int64_t count[4])
 {
     fr_status status = fr_ready(filter, KALMAN_FILTER_MAGIC);
-    if (status == FR_WRONG_ORDER)
-        status = FR_OK; /* after the end too */
-    if (status == FR_OK && count == NULL)
-        status = FR_NULL_POINTER;
-    if (status == FR_OK)
-        (void)memcpy(count, filter->engine.state.left_out, sizeof filter->engine.state.left_out);
-    return status;
+    if (status != FR_OK && status != FR_WRONG_ORDER)
+        return status;
+    return fr_kalman_engine_left_out(&filter->engine, count);
 }

@@ -105,3 +105,11 @@ fr_status fr_kalman_engine_read(fr_kalman_engine *engine, void *room, int64_t sa
     engine->held++;
     return FR_OK;
 }
+
+fr_status fr_kalman_engine_left_out(const fr_kalman_engine *engine, int64_t *count)
+{
+    if (count == NULL)
+        return FR_NULL_POINTER;
+    (void)memcpy(count, engine->state.left_out, sizeof engine->state.left_out);
+    return FR_OK;
+}

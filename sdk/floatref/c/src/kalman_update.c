@@ -172,6 +172,7 @@ void fr_kalman_observe(const fr_kalman_model *model, fr_kalman_state *state,
         double y = observed->y[kind], variance = observed->variance[kind], innovation;
         if (y != y)
             continue;
+        node->observed++;
         innovation = innovation_of(state, &e, y, kind);
         if ((observed->mark & FR_K_TRUSTED) != 0 ||
             is_plausible(state, kind, innovation, variance, e.h[kind]) != 0) {
@@ -189,7 +190,7 @@ static void keep_transition(const fr_kalman_model *model, fr_kalman_state *s, fr
     node->transition = s->transition;
     node->span = span;
     node->shift = node->rise = node->climb = 0.0;
-    node->renewed = node->updated = 0;
+    node->renewed = node->updated = node->observed = node->reserved = 0;
     if (span > 0.0) {
         double mean = s->transition.velocity_lean / span + s->level, share = span / RUNNING_S;
         s->running += (mean - s->running) * (share < 1.0 ? share : 1.0);

@@ -12,7 +12,7 @@ from floatref.estimators import kalman
 from floatref.estimators.kalman import Noise, Plan
 from floatref.estimators.kalman.inputs import GNSS, IMU, QUALITY
 from floatref.values.arrays import Flag
-from floatref.values.block import Axis, Block, Event, Header
+from floatref.values.block import Axis, Block, Event, Header, join_blocks
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup, TrackSetup
 
@@ -171,6 +171,44 @@ def by_sdk():
     return filter_by_sdk
 
 
+def smooth_by_sdk(drive, plan, noise):
+    """Return the elevation and its 1-sigma, smoothed from the whole run, of every sample."""
+    stage = kalman.KalmanSmoother(plan, noise, tolerance_m=0.0)
+    stage.start(drive.header)
+    out = [stage.push(block) for block in drive.blocks()]
+    found = join_blocks([block for block in (*out, *stage.finish()) if len(block)])
+    sigma = found[ChannelId("elevation_sigma", "left")]
+    return found[ChannelId("floating_reference_height", "left")] - drive.height, sigma
+
+
+@pytest.fixture(scope="session")
+def smoothed_by_sdk():
+    return smooth_by_sdk
+
+
+def points_of(drive, interval_m):
+    """Return the sample that reaches each point first, and the part of the step to it."""
+    gone = np.maximum.accumulate(drive.counts - drive.counts[0]) * COUNT_M
+    place = np.arange(int(gone[-1] / interval_m) + 1) * interval_m
+    at = np.searchsorted(gone, place)
+    before = np.maximum(at - 1, 0)
+    step = gone[at] - gone[before]
+    between = (step > interval_m) & (place < gone[at])
+    return at, np.where(between, (place - gone[before]) / np.where(between, step, 1.0), 1.0)
+
+
+def at_points(values, points):
+    """Return samples read at points."""
+    at, part = points
+    before = values[np.maximum(at - 1, 0)]
+    return np.where(part < 1.0, before + part * (values[at] - before), values[at])
+
+
+@pytest.fixture(scope="session")
+def read_at_points():
+    return lambda values, drive, interval_m: at_points(values, points_of(drive, interval_m))
+
+
 def settings_of(drive, plan, noise):
     """Return the settings of the C library that say the same."""
     inside = {f"noise__{name}": value for name, value in vars(noise).items()}
@@ -225,6 +263,8 @@ def path_of(double):
 
     def make_path(kind, drive, plan=None, noise=None, **settings):
         found = settings_of(drive, plan or Plan(), noise or Noise())
+        if kind == "kalman":
+            found = {f"filter__{name}": value for name, value in found.items()}
         return Path(double.make(kind, **{**found, **settings}))
 
     return make_path
@@ -253,3 +293,30 @@ def filter_by_c(path, drive, edges=None, late=0, order=None, variances=None):
 @pytest.fixture(scope="session")
 def filtered():
     return filter_by_c
+
+
+def smooth_by_c(path, drive, edges=None, late=0):
+    """Return elevation, 1-sigma and flags of all points."""
+    room = 2_000_000
+    out = np.empty(room), np.empty(room), np.empty(room, np.uint8)
+    kinds, found, k = ("fr_real *", "fr_real *", "uint8_t *"), [], 0
+    for begin, end in pairwise([0, len(drive)] if edges is None else edges):
+        while k < drive.at.size and drive.at[k] < end - late:
+            assert path.read(drive.at[k], drive.y[k]) == 0
+            k += 1
+        status, written = path.push(drive, begin, end, zip(kinds, out, strict=True), room)
+        assert status == 0, path.library.text(status)
+        found.append([y[:written].copy() for y in out])
+    for later in range(k, drive.at.size):
+        assert path.read(drive.at[later], drive.y[later]) == 0
+    written = path.ffi.new("size_t *")
+    places = [path.ffi.cast(kind, y.ctypes.data) for kind, y in zip(kinds, out, strict=True)]
+    status = path.made.call("finish", *places, room, written)
+    assert status == 0, path.library.text(status)
+    found.append([y[: written[0]] for y in out])
+    return [np.concatenate(each) for each in zip(*found, strict=True)]
+
+
+@pytest.fixture(scope="session")
+def smoothed():
+    return smooth_by_c
