@@ -453,6 +453,74 @@ enum {
 };
 
 /* ---------------------------------------------------------------------------------------------
+ * The road-prior smoother of one wheel path, with a fixed lag: in place of both integrations and
+ * all high-pass filters. The road is a process in distance, which does not change at a stop. Points
+ * come out in sections of half a lag, with at least the lag behind them, in bounded memory. A
+ * standstill of any length takes no more; what a lag is too short for is flagged.
+ *
+ * All of it is computed in double, in the float build too. Memory in bytes, near enough, with n =
+ * lag_s node_rate_hz and p = lag_s fastest_mps / interval_m: 480 n + 48 p + 16 n / m + 2 p / q
+ * kilobytes of marks and so on: fr_road_prior_size() says it, docs/c-library.md shows it.
+ */
+typedef struct fr_road_prior_config {
+    double rate_hz;          /* samples per second, 10 at least; no default */
+    double metres_per_count; /* of the encoder; no default */
+    double interval_m;       /* between points; no default */
+    double gravity_mps2;     /* taken from every acceleration: 9.80665 for a specific force; 0 */
+    double node_rate_hz;     /* nodes per second, 10 to 1000, of the filter; 500 */
+    double lag_s;            /* least time from a point to its output; 60 */
+    double fastest_mps;      /* speed above which the lag is shorter; 40 */
+    double tolerance_m;      /* a point that readings to come may change by more, as 1-sigma behind
+                                the high-pass, is FR_POINT_UNSETTLED; 1e-4 */
+    double wavelength_m;     /* cut-off of each pass of HPF_B3x2, for the 1-sigma; 105.91 */
+    /* What sensors, vehicle and road are taken for, as in the SDK. Densities per sqrt(Hz). */
+    double acceleration;         /* white noise of the accelerometer in m/s^2; 1.5e-4 */
+    double acceleration_bias;    /* 1-sigma of its bias at the start in m/s^2; 0.03 */
+    double acceleration_walk;    /* random walk of the bias in m/s^2 per sqrt(s); 1e-4 */
+    double walk_along;           /* what acceleration along the road adds, in 1/sqrt(s); 1.6e-3 */
+    double missing_acceleration; /* in place of `acceleration` for missing samples; 0.3 */
+    double reading_m;            /* least 1-sigma of a height as one of the road; 1e-4 */
+    double road_m;               /* q = G_s/2 of (2.2); 4e-6 */
+    double long_waves_per_m;     /* G_a/2 of (2.4); 2e-7 */
+    double road_reach_m;         /* distance after which the road is forgotten; 150 */
+    double road_memory_m;        /* travel over which the run's own road takes over, 32 at least; 300 */
+    double edge_sigmas;          /* a height at a standstill so far off is an edge; 6 */
+    double lean_expected_rad, lean_sigma_rad; /* of the accelerometer's axis forward; 0, 0.03 */
+    double tilt_expected, tilt_sigma; /* pitch per acceleration, rad per m/s^2; 0, 0.01 */
+    double pitch_hz, pitch_damping;   /* of the pitch response; 1.6, 0.3 */
+    double height_m;                  /* 1-sigma of a height, for the 1-sigma of the result; 4e-5 */
+    double most_sigma_share; /* a 1-sigma that is a larger share of the road's bend is uncertain; 0.3 */
+    int32_t missing; /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED. Bridged: a
+                        missing height is no reading, a missing acceleration is one of 0 that is
+                        taken for as uncertain as `missing_acceleration`; such points are flagged. */
+    int32_t back;    /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
+} fr_road_prior_config;
+
+typedef struct fr_road_prior fr_road_prior;
+
+FR_API fr_road_prior_config fr_road_prior_defaults(void);
+FR_API size_t fr_road_prior_size(const fr_road_prior_config *config);
+FR_API fr_status fr_road_prior_init(void *memory, size_t size, const fr_road_prior_config *config,
+                                    fr_road_prior **out);
+/* Acceleration in m/s^2 and height in m, both within a million, of `count` samples. Of each point
+ * that comes out: elevation in m before any high-pass, 1-sigma of it in m behind HPF_B3x2, and
+ * flags. FR_BAD_SAMPLE too where the encoder leaps by more than half a lag at `fastest_mps`. */
+FR_API fr_status fr_road_prior_push(fr_road_prior *road, const fr_real *acceleration,
+                                    const fr_real *height, const int64_t *counts, size_t count,
+                                    fr_real *elevation, fr_real *sigma, uint8_t *flags,
+                                    size_t capacity, size_t *written);
+/* The same behind a stage that levels the acceleration: the share of each sample, 0 to 1, that is
+ * levelled, and the share that is missing; either may be NULL, for 0. */
+FR_API fr_status fr_road_prior_push_levelled(fr_road_prior *road, const fr_real *acceleration,
+                                             const fr_real *height, const int64_t *counts,
+                                             const fr_real *levelled, const fr_real *missing,
+                                             size_t count, fr_real *elevation, fr_real *sigma,
+                                             uint8_t *flags, size_t capacity, size_t *written);
+/* End the run: all points that are left, smoothed with what there is behind them. */
+FR_API fr_status fr_road_prior_finish(fr_road_prior *road, fr_real *elevation, fr_real *sigma,
+                                      uint8_t *flags, size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
  * The International Roughness Index, running over distance (2.1.1). The car starts at the mean
  * slope of the start length, so the first output comes behind that length; the others come one
  * moving average behind their point. Memory: 8 bytes or less per point of the longer of both.

@@ -96,7 +96,7 @@ void fr_lag_update(const fr_lag_view *view, const double *gain, const double *ro
 }
 
 /* A section ends; the next one begins where there is room for it. Return whether there is not. */
-static int end_section(const fr_lag_view *view, const double *covariance)
+static int close_section(const fr_lag_view *view, const double *covariance)
 {
     fr_lag *lag = view->lag;
     size_t square = (size_t)(view->model->states * view->model->states);
@@ -134,7 +134,7 @@ int fr_lag_end_node(const fr_lag_view *view, const fr_lag_node_end *end)
     lag->distance_m = end->distance_m;
     if ((lag->kind & FR_LAG_MARK) != 0)
         fr_lag_link_mark(view, fr_lag_rows(node));
-    return (lag->kind & FR_LAG_ENDS) != 0 ? end_section(view, end->covariance) : 0;
+    return (lag->kind & FR_LAG_ENDS) != 0 ? close_section(view, end->covariance) : 0;
 }
 
 void fr_lag_end_run(const fr_lag_view *view)

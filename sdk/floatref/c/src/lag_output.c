@@ -29,6 +29,7 @@ typedef struct emission {
     corrected before;
     int64_t mark, end; /* the mark at or behind the point, and behind the last one to be used */
     double step_m, from_m; /* the step that fades, and where */
+    double largest;        /* of the last node */
     size_t first;          /* of this call, in the output */
 } emission;
 
@@ -95,6 +96,7 @@ static void emit_span(emission *out, fr_lag_node *node)
     }
     if (node->flags != 0 && out->output->made > out->first)
         out->output->flags[out->output->made - 1u] |= (uint8_t)node->flags;
+    out->largest = node->largest;
     out->before.flags |= node->flags;
     out->before.height = node->height;
     out->before.velocity = node->velocity;
@@ -109,7 +111,8 @@ static emission begin_emission(const fr_lag_view *view, fr_lag_output *output, i
 {
     fr_lag *lag = view->lag;
     const fr_lag_origin *origin = &lag->origin;
-    emission out = {view, output, {0.0, 0.0, 0.0, {0.0, 0.0}, 0}, 0, end, 0.0, 0.0, output->made};
+    emission out = {view, output, {0.0, 0.0, 0.0, {0.0, 0.0}, 0}, 0, end,
+                    0.0,  0.0,    0.0,                          output->made};
     out.mark = lag->sections[lag->oldest].first_mark;
     if (origin->known == 0)
         return out;
@@ -153,6 +156,17 @@ static void keep_origin(const emission *out, const double *rows)
     origin->known = 1;
 }
 
+/* Points at the last node itself, behind it. */
+static void emit_rest(emission *out)
+{
+    fr_lag *lag = out->view->lag;
+    fr_lag_node end;
+    (void)memset(&end, 0, sizeof end);
+    end.largest = out->largest;
+    for (; lag->first_point < lag->points; lag->first_point++)
+        emit(out, fr_lag_point_at(out->view, lag->first_point), &end, out->before.added);
+}
+
 void fr_lag_release(const fr_lag_view *view, fr_lag_output *output)
 {
     fr_lag *lag = view->lag;
@@ -161,7 +175,8 @@ void fr_lag_release(const fr_lag_view *view, fr_lag_output *output)
     double lambda[FR_LAG_STATES] = {0.0}, rows[2 * FR_LAG_STATES];
     emission out;
     fr_lag_settle(view);
-    fr_lag_sigmas(view, begin, end, 0);
+    /* The mark before begins the line to the first one, as it is known now. */
+    fr_lag_sigmas(view, begin > lag->first_mark ? begin - 1 : begin, end, 0);
     fr_lag_back_marks(view, end, lambda);
     keep_rows(view, rows);
     fr_lag_back_nodes(view, lag->oldest, lambda);
@@ -176,16 +191,18 @@ void fr_lag_release(const fr_lag_view *view, fr_lag_output *output)
 void fr_lag_finish(const fr_lag_view *view, const double *lambda, fr_lag_output *output)
 {
     fr_lag *lag = view->lag;
+    int64_t begin = lag->sections[lag->oldest].first_mark;
     double behind[FR_LAG_STATES] = {0.0};
     emission out;
     fr_lag_end_run(view);
     if (lambda != NULL)
         (void)memcpy(behind, lambda, (size_t)view->model->states * sizeof *behind);
     fr_lag_settle(view);
-    fr_lag_sigmas(view, lag->sections[lag->oldest].first_mark, lag->marks, 1);
+    fr_lag_sigmas(view, begin > lag->first_mark ? begin - 1 : begin, lag->marks, 1);
     for (int32_t k = lag->held - 1; k >= 0; k--)
         fr_lag_back_nodes(view, (lag->oldest + k) % FR_LAG_SECTIONS, behind);
     out = begin_emission(view, output, lag->marks, behind);
     for (int32_t k = 0; k < lag->held; k++)
         emit_section(&out, (lag->oldest + k) % FR_LAG_SECTIONS);
+    emit_rest(&out);
 }

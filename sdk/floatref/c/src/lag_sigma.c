@@ -181,10 +181,11 @@ void fr_lag_sigmas(const fr_lag_view *view, int64_t begin, int64_t end, int ende
     double m[FR_LAG_STATES], z[FR_LAG_STATES], spread[FR_LAG_STATES * FR_LAG_STATES];
     for (int64_t k = begin; k < end; k++) {
         fr_lag_mark *mark = fr_lag_mark_at(view, k);
-        double variance = variance_along(view, k, ended ? 0 : lag->marks, m);
+        double variance = variance_along(view, k, ended != 0 ? 0 : lag->marks, m);
         mark->sigma = sqrt((variance > 0.0 ? variance : 0.0) +
                            lag->shape.noise_m * lag->shape.noise_m);
-        if (ended)
+        mark->change = 0.0;
+        if (ended != 0)
             continue;
         int32_t size = see_last(view, m, z, spread);
         scale(z, spread, size);

@@ -16,6 +16,12 @@ static inline int fr_missing(fr_real x)
     return x != x;
 }
 
+/* The same of a number that is double in both builds. */
+static inline int fr_missing_number(double x)
+{
+    return x != x;
+}
+
 static inline int fr_finite(double x)
 {
     return x - x == 0.0;
