@@ -616,7 +616,7 @@ typedef struct fr_kalman_noise {
     double gnss_pitch_rad;       /* 2.09e-3 */
     double gnss_roll_rad;        /* 3.49e-3 */
     double gnss_height_walk;     /* slow error of the GNSS height, in m/sqrt(s); 1.5e-3 */
-    double constant_height;      /* what stays the same for want of a reading, in m/sqrt(Hz); 0.04 */
+    double constant_height;      /* what stays the same without a reading, in m/sqrt(Hz); 0.04 */
     double constant_velocity;    /* in m/s/sqrt(Hz); 0.08 */
     double constant_pitch;       /* in rad/sqrt(Hz); 0.0195 */
     double constant_roll;        /* in rad/sqrt(Hz); 0.0078 */

@@ -58,7 +58,7 @@ typedef struct fr_kalman_input {
     double x, y, z, roll_rate, pitch_rate, yaw_rate;
 } fr_kalman_input;
 
-/* Elements of A (C.3) multiplied up over steps. All others are those of a body that falls freely. */
+/* Elements of A (C.3) multiplied up over steps. All others are those of a body in free fall. */
 typedef struct fr_kalman_transition {
     double height[FR_BY], velocity[FR_BY], pitch[FR_BY], roll[FR_BY];
     double height_lean, velocity_lean;

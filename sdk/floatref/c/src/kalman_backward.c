@@ -103,14 +103,14 @@ fr_lag_model fr_kalman_lag_model(void)
 }
 
 /* The readings at the end of a run, one row of the equations each. */
-typedef struct ending {
+typedef struct run_ending {
     double h[FR_K_KINDS][FR_K_STATES];
     double a[FR_K_KINDS][FR_K_KINDS + 1]; /* H P H' + R, and y - h(x) */
     int size;
-} ending;
+} run_ending;
 
 static void gather_ending(const fr_kalman_model *model, const fr_kalman_state *state,
-                          const fr_kalman_observation *observed, ending *e)
+                          const fr_kalman_observation *observed, run_ending *e)
 {
     double h[FR_K_KINDS][FR_K_STATES], predicted[FR_K_KINDS];
     fr_kalman_linearize(model, state, h, predicted);
@@ -126,7 +126,7 @@ static void gather_ending(const fr_kalman_model *model, const fr_kalman_state *s
     }
 }
 
-static void fill_ending(const fr_kalman_state *state, ending *e)
+static void fill_ending(const fr_kalman_state *state, run_ending *e)
 {
     for (int i = 0; i < e->size; i++) {
         for (int j = 0; j < e->size; j++) {
@@ -140,7 +140,7 @@ static void fill_ending(const fr_kalman_state *state, ending *e)
 }
 
 /* Let the row of the largest number in column k be row k. */
-static void pivot_ending(ending *e, int k)
+static void pivot_ending(run_ending *e, int k)
 {
     int best = k;
     for (int i = k + 1; i < e->size; i++)
@@ -153,7 +153,7 @@ static void pivot_ending(ending *e, int k)
 }
 
 /* Solve by elimination; the last column becomes the solution. */
-static void solve_ending(ending *e)
+static void solve_ending(run_ending *e)
 {
     for (int k = 0; k < e->size; k++) {
         pivot_ending(e, k);
@@ -170,7 +170,7 @@ static void solve_ending(ending *e)
 void fr_kalman_beyond(const fr_kalman_model *model, const fr_kalman_state *state,
                       const fr_kalman_observation *observed, double *lambda)
 {
-    ending e;
+    run_ending e;
     gather_ending(model, state, observed, &e);
     fill_ending(state, &e);
     solve_ending(&e);

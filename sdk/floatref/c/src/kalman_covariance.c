@@ -9,16 +9,16 @@
 
 /* Sums over the steps since the node: a disturbance of a state with m steps to go moves velocity by
  * m, and height by m squared over two, times its acceleration. */
-typedef struct sums {
+typedef struct step_sums {
     double n, step, s1, s2, s3, s4;
-} sums;
+} step_sums;
 
 /* What pitch and roll make of the noise of the rates, (C.6), and of the walk of their biases. */
-typedef struct spread {
+typedef struct turn_noise {
     double c33, c34, c44;
     double by_pitch, by_roll, to_pitch, to_roll;
     double both, cross_pitch, cross_roll;
-} spread;
+} turn_noise;
 
 void fr_kalman_carry(const fr_kalman_transition *t, double span, const double *c, double *out)
 {
@@ -33,9 +33,9 @@ void fr_kalman_carry(const fr_kalman_transition *t, double span, const double *c
     out[3] = t->roll[0] * c3 + t->roll[1] * c4 + t->roll[2] * c6 + t->roll[3] * c7;
 }
 
-static sums sums_of(double n, double step)
+static step_sums step_sums_of(double n, double step)
 {
-    sums s;
+    step_sums s;
     s.n = n;
     s.step = step;
     s.s1 = n * (n - 1.0) / 2.0 * step;
@@ -45,14 +45,14 @@ static sums sums_of(double n, double step)
     return s;
 }
 
-static spread spread_of(const fr_kalman_model *model, const fr_kalman_state *state)
+static turn_noise turn_noise_of(const fr_kalman_model *model, const fr_kalman_state *state)
 {
     double st = sin(state->x[FR_K_PITCH]), ct = cos(state->x[FR_K_PITCH]);
     double sp = sin(state->x[FR_K_ROLL]), cp = cos(state->x[FR_K_ROLL]);
     double tangent = st / ct, step = model->step;
     double q1 = model->white_roll * step, q2 = model->white_pitch * step;
     double q3 = model->white_yaw * step;
-    spread s;
+    turn_noise s;
     s.by_pitch = state->by_pitch / state->steps;
     s.by_roll = state->by_roll / state->steps;
     s.c33 = cp * cp * q2 + sp * sp * q3;
@@ -66,7 +66,7 @@ static spread spread_of(const fr_kalman_model *model, const fr_kalman_state *sta
     return s;
 }
 
-static void add_white(double p[FR_K_STATES][FR_K_STATES], const spread *c, const sums *s,
+static void add_white(double p[FR_K_STATES][FR_K_STATES], const turn_noise *c, const step_sums *s,
                       double white)
 {
     double n = s->n, step = s->step;
@@ -81,7 +81,7 @@ static void add_white(double p[FR_K_STATES][FR_K_STATES], const spread *c, const
 }
 
 /* `walk_1` and `walk_2` are those of the roll and the pitch rate's bias in a step. */
-static void add_turning(double p[FR_K_STATES][FR_K_STATES], const spread *c, const sums *s,
+static void add_turning(double p[FR_K_STATES][FR_K_STATES], const turn_noise *c, const step_sums *s,
                         double walk_1, double walk_2)
 {
     double n = s->n, s2 = s->s2;
@@ -98,7 +98,7 @@ static void add_turning(double p[FR_K_STATES][FR_K_STATES], const spread *c, con
     p[FR_K_PITCH_BIAS][FR_K_PITCH_BIAS] += walk_2 * n;
 }
 
-static void add_walk(double p[FR_K_STATES][FR_K_STATES], const sums *s, double walk)
+static void add_walk(double p[FR_K_STATES][FR_K_STATES], const step_sums *s, double walk)
 {
     p[FR_K_HEIGHT][FR_K_BIAS] += walk * s->s2 / 2.0;
     p[FR_K_VELOCITY][FR_K_BIAS] += walk * s->s1;
@@ -106,12 +106,12 @@ static void add_walk(double p[FR_K_STATES][FR_K_STATES], const sums *s, double w
 }
 
 /* Add W Q W' of all steps since the node, (C.5) and (C.6), to the upper half of P. */
-static void add_noise(const fr_kalman_model *model, fr_kalman_state *state)
+static void add_process_noise(const fr_kalman_model *model, fr_kalman_state *state)
 {
     double step = model->step;
     double white = state->lost_until >= state->latest ? model->lost_white : model->white;
-    sums s = sums_of(state->steps, step);
-    spread c = spread_of(model, state);
+    step_sums s = step_sums_of(state->steps, step);
+    turn_noise c = turn_noise_of(model, state);
     add_white(state->p, &c, &s, white * step);
     add_turning(state->p, &c, &s, model->walk_roll * step, model->walk_pitch * step);
     add_walk(state->p, &s, model->walk * step);
@@ -134,7 +134,7 @@ void fr_kalman_predict(const fr_kalman_model *model, fr_kalman_state *state)
         for (int j = 4; j < FR_K_STATES; j++)
             state->p[i][j] = carried[i][j];
     }
-    add_noise(model, state);
+    add_process_noise(model, state);
     for (int i = 0; i < FR_K_STATES; i++)
         for (int j = 0; j < i; j++)
             state->p[i][j] = state->p[j][i];

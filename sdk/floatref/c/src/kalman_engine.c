@@ -7,64 +7,6 @@
 
 #include "kalman_engine.h"
 
-#define NODES_PER_S 100.0
-/* The inputs of the filter are means over a step: below this rate they are no motion. */
-#define SLOWEST_HZ 2.0
-#define LATEST_S 60.0
-#define MOST_READINGS 100000
-/* Speeds below which a vehicle is stationary, at most, in m/s. */
-#define FASTEST_STOP_MPS 10.0
-
-static int are_densities(const double *values, size_t count)
-{
-    int possible = 1;
-    for (size_t i = 0; i < count; i++)
-        possible &= values[i] >= 0.0 && values[i] <= FR_K_LARGEST;
-    return possible;
-}
-
-/* Process noise may be zero, that of a reading not: the covariance could have no inverse. */
-static int noise_is_possible(const fr_kalman_noise *n)
-{
-    const double process[] = {n->acceleration,   n->acceleration_walk,    n->roll_rate,
-                              n->pitch_rate,     n->yaw_rate,             n->roll_rate_walk,
-                              n->pitch_rate_walk, n->missing_acceleration, n->lean_rad,
-                              n->gnss_height_walk, n->height_m};
-    const double readings[] = {n->gnss_height_m,   n->gnss_velocity_mps, n->gnss_pitch_rad,
-                               n->gnss_roll_rad,   n->constant_height,   n->constant_velocity,
-                               n->constant_pitch,  n->constant_roll,     n->reflection};
-    int possible = are_densities(process, sizeof process / sizeof *process) &&
-                   are_densities(readings, sizeof readings / sizeof *readings);
-    for (size_t i = 0; i < sizeof readings / sizeof *readings; i++)
-        possible &= readings[i] >= FR_K_SMALLEST;
-    return possible;
-}
-
-static int arm_is_possible(const double *arm)
-{
-    int possible = 1;
-    for (int i = 0; i < 3; i++)
-        possible &= fabs(arm[i]) <= FR_K_LARGEST;
-    return possible;
-}
-
-static int kalman_is_possible(const fr_kalman_filter_config *config)
-{
-    return fr_travel_window(&config->travel) > 0u && config->travel.rate_hz >= SLOWEST_HZ &&
-           noise_is_possible(&config->noise) && arm_is_possible(config->antenna_m) &&
-           fabs(config->gravity_mps2) <= FR_K_LARGEST && config->reflection_speed_mps >= 0.0 &&
-           config->reflection_speed_mps <= FASTEST_STOP_MPS && config->late_s >= 0.0 &&
-           config->late_s <= LATEST_S && fr_one_of(config->gnss, 0, 1) &&
-           fr_one_of(config->attitude, 0, 1) && fr_one_of(config->reflects, 0, 1) &&
-           fr_one_of(config->missing, FR_MISSING_REFUSED, FR_MISSING_BRIDGED) &&
-           fr_one_of(config->readings, 1, MOST_READINGS);
-}
-
-static uint32_t delay_of(const fr_kalman_filter_config *config)
-{
-    return (uint32_t)rint(config->late_s * config->travel.rate_hz);
-}
-
 /* Counts that are held: the sample that is filtered needs the one a window before. */
 static size_t counts_of(uint32_t window, uint32_t delay)
 {
@@ -79,9 +21,9 @@ static size_t bytes_of(uint32_t window, uint32_t delay, uint32_t readings)
 
 size_t fr_kalman_engine_room(const fr_kalman_filter_config *config)
 {
-    if (config == NULL || !kalman_is_possible(config))
+    if (config == NULL || !fr_kalman_is_possible(config))
         return 0u;
-    return bytes_of(fr_travel_window(&config->travel), delay_of(config),
+    return bytes_of(fr_travel_window(&config->travel), fr_kalman_delay(config),
                     (uint32_t)config->readings);
 }
 
@@ -100,39 +42,9 @@ fr_kalman_reading *fr_kalman_readings(const fr_kalman_engine *engine, void *room
     return (fr_kalman_reading *)(void *)(samples_of(engine, room) + engine->delay);
 }
 
-static int64_t sub_block_of(double step)
-{
-    int64_t samples = (int64_t)rint(1.0 / (NODES_PER_S * step));
-    return samples > 0 ? samples : 1;
-}
-
-double fr_kalman_nodes_hz(const fr_kalman_filter_config *config)
-{
-    double rate_hz = config->travel.rate_hz;
-    return rate_hz / (double)sub_block_of(1.0 / rate_hz);
-}
-
-static void set_model(fr_kalman_model *model, const fr_kalman_filter_config *config)
-{
-    const fr_kalman_noise *n = &config->noise;
-    model->step = 1.0 / config->travel.rate_hz;
-    model->sub_block = sub_block_of(model->step);
-    model->gravity = config->gravity_mps2;
-    (void)memcpy(model->arm, config->antenna_m, sizeof model->arm);
-    model->white = n->acceleration * n->acceleration;
-    model->white_roll = n->roll_rate * n->roll_rate;
-    model->white_pitch = n->pitch_rate * n->pitch_rate;
-    model->white_yaw = n->yaw_rate * n->yaw_rate;
-    model->walk = n->acceleration_walk * n->acceleration_walk;
-    model->walk_roll = n->roll_rate_walk * n->roll_rate_walk;
-    model->walk_pitch = n->pitch_rate_walk * n->pitch_rate_walk;
-    model->lost_white = n->missing_acceleration * n->missing_acceleration;
-    model->lean = n->lean_rad * n->lean_rad;
-}
-
 void fr_kalman_engine_set(fr_kalman_engine *engine, const fr_kalman_filter_config *config)
 {
-    set_model(&engine->model, config);
+    fr_kalman_model_set(&engine->model, config);
     fr_kalman_references_set(&engine->references, &engine->model, config);
     fr_kalman_begin(&engine->state, 0.0, config->noise.lean_rad);
     engine->metres_per_count = config->travel.metres_per_count;
@@ -140,7 +52,7 @@ void fr_kalman_engine_set(fr_kalman_engine *engine, const fr_kalman_filter_confi
     engine->window = fr_travel_window(&config->travel);
     engine->duration_s = (double)engine->window / config->travel.rate_hz;
     engine->back = config->travel.back;
-    engine->delay = delay_of(config);
+    engine->delay = fr_kalman_delay(config);
     engine->room = (uint32_t)config->readings;
     engine->missing = config->missing;
 }

@@ -34,6 +34,11 @@ typedef struct fr_kalman_step {
     int32_t is_node; /* whether a node has been made */
 } fr_kalman_step;
 
+/* Whether settings are possible, samples that wait for late readings, and the model. */
+int fr_kalman_is_possible(const fr_kalman_filter_config *config);
+uint32_t fr_kalman_delay(const fr_kalman_filter_config *config);
+void fr_kalman_model_set(fr_kalman_model *model, const fr_kalman_filter_config *config);
+
 /* Bytes of its arrays; 0 for a configuration that is not possible. */
 size_t fr_kalman_engine_room(const fr_kalman_filter_config *config);
 

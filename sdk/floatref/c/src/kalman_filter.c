@@ -13,33 +13,6 @@ struct fr_kalman_filter {
     fr_kalman_engine engine;
 };
 
-fr_kalman_filter_config fr_kalman_filter_defaults(void)
-{
-    static const fr_kalman_noise usual = {4.65e-5, 1e-4,    1.34e-5, 1.34e-5, 1.34e-5, 9.27e-6, 4.86e-4,
-                                          0.3,     0.01,    0.012,   0.03,    2.09e-3, 3.49e-3, 1.5e-3,
-                                          0.04,    0.08,    0.0195,  0.0078,  2.64e-5, 4e-5};
-    fr_kalman_filter_config config;
-    (void)memset(&config, 0, sizeof config);
-    config.travel = fr_travel_speed_defaults();
-    config.noise = usual;
-    config.gravity_mps2 = 9.80665;
-    config.reflection_speed_mps = 0.16 / 3.6;
-    config.gnss = config.attitude = config.reflects = 1;
-    config.readings = 64;
-    return config;
-}
-
-fr_kalman_filter_config fr_kalman_filter_inertial_defaults(void)
-{
-    fr_kalman_filter_config config = fr_kalman_filter_defaults();
-    config.gnss = config.attitude = 0;
-    config.noise.acceleration_walk = 3e-4;
-    config.noise.pitch_rate_walk = config.noise.roll_rate_walk;
-    config.noise.constant_pitch = 0.1;
-    config.noise.constant_roll = 0.04;
-    return config;
-}
-
 size_t fr_kalman_filter_size(const fr_kalman_filter_config *config)
 {
     size_t room = fr_kalman_engine_room(config);

@@ -11,12 +11,12 @@
 static const double START_SIGMA[] = {1.0, 1.0, 0.1, 0.1, 0.1, 0.01, 0.01};
 
 /* The mean inputs of a step, and what pitch and roll make of them. */
-typedef struct turn {
+typedef struct body_turn {
     double ax, q1, q2, q3;
     double across, along, inverse, tangent;
     double by_pitch, by_roll; /* derivatives of the acceleration, (C.4) */
     double pitch, roll;       /* how far the body turns in the step */
-} turn;
+} body_turn;
 
 void fr_kalman_begin(fr_kalman_state *state, double height, double lean_rad)
 {
@@ -50,13 +50,13 @@ int fr_kalman_ends_sub_block(const fr_kalman_model *model, const fr_kalman_state
 
 /* The inputs of a step are the means of both its ends, so that velocity and height are the
  * trapezoidal integrals of the acceleration. */
-static turn turn_of(const fr_kalman_model *model, const fr_kalman_state *s,
-                    const fr_kalman_input *u, double *rise)
+static body_turn body_turn_of(const fr_kalman_model *model, const fr_kalman_state *s,
+                              const fr_kalman_input *u, double *rise)
 {
     const fr_kalman_input *before = &s->input;
     double st = s->sin_pitch, ct = s->cos_pitch, sp = s->sin_roll, cp = s->cos_roll;
     double ay = 0.5 * (before->y + u->y), az = 0.5 * (before->z + u->z) + model->gravity, surge;
-    turn t;
+    body_turn t;
     t.ax = 0.5 * (before->x + u->x);
     t.q1 = 0.5 * (before->roll_rate + u->roll_rate) + s->x[FR_K_ROLL_BIAS];
     t.q2 = 0.5 * (before->pitch_rate + u->pitch_rate) + s->x[FR_K_PITCH_BIAS];
@@ -76,7 +76,8 @@ static turn turn_of(const fr_kalman_model *model, const fr_kalman_state *s,
 }
 
 /* A <- A of the step times A, column by column. */
-static void compose(fr_kalman_transition *a, const fr_kalman_state *s, const turn *t, double step)
+static void compose(fr_kalman_transition *a, const fr_kalman_state *s, const body_turn *t,
+                    double step)
 {
     double half = 0.5 * step * step, cp = s->cos_roll, sp = s->sin_roll;
     double a34 = -step * t->along, a43 = t->along * step * t->inverse * t->inverse;
@@ -106,7 +107,7 @@ static void rotate(double *sine, double *cosine, double angle)
     *cosine = c - (s * odd + c * even);
 }
 
-static void move(const fr_kalman_model *model, fr_kalman_state *s, const turn *t, double rise)
+static void move(const fr_kalman_model *model, fr_kalman_state *s, const body_turn *t, double rise)
 {
     double step = model->step, half = 0.5 * step * step;
     compose(&s->transition, s, t, step);
@@ -135,7 +136,7 @@ void fr_kalman_advance(const fr_kalman_model *model, fr_kalman_state *state,
         fr_kalman_begin_sub_block(state);
         state->started = 1;
     } else {
-        turn t = turn_of(model, state, input, &rise);
+        body_turn t = body_turn_of(model, state, input, &rise);
         move(model, state, &t, rise);
     }
     state->input = *input;

@@ -7,7 +7,7 @@
 #include "kalman_references.h"
 
 /* Without a usable GNSS reading for so long, constants take its place. */
-#define PATIENCE_S 0.5
+#define GNSS_PATIENCE_S 0.5
 /* Readings at shorter intervals count for less: their errors are those of the one before. */
 #define READING_S 0.045
 #define USUAL_S 0.05
@@ -39,7 +39,7 @@ void fr_kalman_references_set(fr_kalman_references *r, const fr_kalman_model *mo
     r->arm_up = model->arm[2];
     r->reflection_speed = config->reflection_speed_mps;
     r->sub_block = model->sub_block;
-    r->patience = (int64_t)rint(PATIENCE_S / model->step);
+    r->patience = (int64_t)rint(GNSS_PATIENCE_S / model->step);
     r->second = (int64_t)rint(1.0 / model->step);
     r->before = -1;
     r->gnss = config->gnss;

@@ -9,8 +9,8 @@
 
 enum { FR_K_SECONDS = 4 };
 
-/* A usable GNSS reading: height, velocity, pitch and roll, all but the height NaN where missing, and
- * their variances, NaN for those of the settings. */
+/* A usable GNSS reading: height, velocity, pitch and roll, all but the height NaN where missing,
+ * and their variances, NaN for those of the settings. */
 typedef struct fr_kalman_reading {
     int64_t at;
     double y[FR_K_KINDS], variance[FR_K_KINDS];
@@ -46,7 +46,8 @@ void fr_kalman_references_set(fr_kalman_references *references, const fr_kalman_
 
 /* Say what is observed at a sample, at its height, travel speed and distance in m; 0 if nothing is.
  * The reading is NULL where there is none. */
-int fr_kalman_schedule(fr_kalman_references *references, int64_t at, double height, double speed, double distance_m, const fr_kalman_reading *reading,
+int fr_kalman_schedule(fr_kalman_references *references, int64_t at, double height, double speed,
+                       double distance_m, const fr_kalman_reading *reading,
                        fr_kalman_observation *out);
 
 /* Say what to observe at the last sample of a run, where constants count for what is left of their

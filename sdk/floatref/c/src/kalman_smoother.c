@@ -32,7 +32,7 @@ fr_kalman_config fr_kalman_inertial_defaults(void)
     return config;
 }
 
-static int within(double value, double least, double most)
+static int lies_within(double value, double least, double most)
 {
     return value >= least && value <= most;
 }
@@ -41,14 +41,14 @@ static int smoother_is_possible(const fr_kalman_config *config)
 {
     return fr_kalman_engine_room(&config->filter) > 0u &&
            fr_points_are_possible(config->interval_m, config->filter.travel.metres_per_count) &&
-           within(config->lag_s, SHORTEST_LAG_S, LONGEST_LAG_S) &&
-           within(config->fastest_mps, 0.1, FASTEST_MPS) &&
-           within(config->gnss_hz, 0.0, MOST_GNSS_HZ) &&
-           within(config->wavelength_m, config->interval_m, FR_K_LARGEST) &&
-           within(config->tolerance_m, 0.0, FR_K_LARGEST);
+           lies_within(config->lag_s, SHORTEST_LAG_S, LONGEST_LAG_S) &&
+           lies_within(config->fastest_mps, 0.1, FASTEST_MPS) &&
+           lies_within(config->gnss_hz, 0.0, MOST_GNSS_HZ) &&
+           lies_within(config->wavelength_m, config->interval_m, FR_K_LARGEST) &&
+           lies_within(config->tolerance_m, 0.0, FR_K_LARGEST);
 }
 
-static int32_t at_least(double number, int32_t least)
+static int32_t whole_at_least(double number, int32_t least)
 {
     double most = (double)(INT32_MAX / 8), whole = ceil(number);
     if (!(whole > (double)least))
@@ -56,26 +56,26 @@ static int32_t at_least(double number, int32_t least)
     return whole < most ? (int32_t)whole : (int32_t)most;
 }
 
-static fr_lag_pace pace_of(const fr_kalman_config *config)
+static fr_lag_pace kalman_pace(const fr_kalman_config *config)
 {
     double nodes_hz = fr_kalman_nodes_hz(&config->filter), section_s = 0.5 * config->lag_s;
     double most_hz = nodes_hz + (config->filter.gnss != 0 ? config->gnss_hz : 0.0) + 1.0;
     fr_lag_pace pace;
-    pace.nodes = at_least(section_s * most_hz, 8);
+    pace.nodes = whole_at_least(section_s * most_hz, 8);
     pace.updates = FR_K_KINDS * pace.nodes + FR_LAG_UPDATES;
-    pace.points = at_least(section_s * config->fastest_mps / config->interval_m, 1);
-    pace.stops = at_least(section_s / STOP_S, 1);
-    pace.patience = at_least(STATIONARY_S * nodes_hz, 1);
+    pace.points = whole_at_least(section_s * config->fastest_mps / config->interval_m, 1);
+    pace.stops = whole_at_least(section_s / STOP_S, 1);
+    pace.patience = whole_at_least(STATIONARY_S * nodes_hz, 1);
     pace.delay = 0;
-    pace.mark_nodes = at_least(MARK_S * most_hz, 1);
-    pace.mark_points = at_least(MARK_M / config->interval_m, 1);
+    pace.mark_nodes = whole_at_least(MARK_S * most_hz, 1);
+    pace.mark_points = whole_at_least(MARK_M / config->interval_m, 1);
     return pace;
 }
 
-static fr_lag_shape shape_of(const fr_kalman_config *config)
+static fr_lag_shape kalman_shape(const fr_kalman_config *config)
 {
     fr_lag_shape shape;
-    shape.pace = pace_of(config);
+    shape.pace = kalman_pace(config);
     shape.interval_m = config->interval_m;
     shape.wavelength_m = config->wavelength_m;
     shape.noise_m = config->filter.noise.height_m;
@@ -90,7 +90,7 @@ size_t fr_kalman_size(const fr_kalman_config *config)
     size_t numbers;
     if (config == NULL || !smoother_is_possible(config))
         return 0u;
-    shape = shape_of(config);
+    shape = kalman_shape(config);
     numbers = fr_lag_numbers(&model, &shape);
     if (numbers == 0u)
         return 0u;
@@ -119,7 +119,7 @@ fr_status fr_kalman_init(void *memory, size_t size, const fr_kalman_config *conf
     if (status != FR_OK)
         return status;
     *out = (fr_kalman *)memory;
-    shape = shape_of(config);
+    shape = kalman_shape(config);
     fr_kalman_engine_set(&(*out)->engine, &config->filter);
     fr_points_set(&(*out)->points, config->interval_m, config->filter.travel.metres_per_count);
     look_at(*out, &view);

@@ -11,7 +11,7 @@
 #define GATE 100.0
 /* This number of heights left out in a row is a leap of the datum, of this variance in m^2. */
 #define BELIEVED_AT 20
-#define DATUM_VARIANCE 1e4
+#define LEAP_VARIANCE 1e4
 /* Time constant of the running mean of the longitudinal specific force. */
 #define RUNNING_S 1.0
 
@@ -19,10 +19,10 @@
 static const double FLOORS[] = {0.2, 0.5, 0.05235987755982989, 0.05235987755982989};
 
 /* What the readings of one sample are compared with. */
-typedef struct expected {
+typedef struct expected_readings {
     double h[FR_K_KINDS][FR_K_STATES], predicted[FR_K_KINDS], prior[FR_K_STATES];
     double base; /* what the observed height is relative to */
-} expected;
+} expected_readings;
 
 /* Write P H' and return H P H'. */
 static double project(double p[FR_K_STATES][FR_K_STATES], const double *h, double *projected)
@@ -67,7 +67,7 @@ static void clone(fr_kalman_state *s)
 }
 
 /* Find what the observed height is relative to; adapt its prediction and its row of H. */
-static void find_base(int32_t mark, fr_kalman_state *s, expected *e)
+static void find_base(int32_t mark, fr_kalman_state *s, expected_readings *e)
 {
     if ((mark & FR_K_CAPTURE) != 0)
         s->captured = e->predicted[FR_K_HEIGHT];
@@ -108,7 +108,7 @@ static int is_plausible(fr_kalman_state *s, int kind, double innovation, double 
     }
     if (kind == FR_K_HEIGHT && s->in_a_row + 1 >= BELIEVED_AT) {
         s->in_a_row = 0;
-        s->p[FR_K_DRIFT][FR_K_DRIFT] += DATUM_VARIANCE;
+        s->p[FR_K_DRIFT][FR_K_DRIFT] += LEAP_VARIANCE;
         return 1;
     }
     s->in_a_row += kind == FR_K_HEIGHT ? 1 : 0;
@@ -151,7 +151,8 @@ static void update_by(fr_kalman_state *s, const double *h, double innovation, do
 
 /* The innovation of a later reading counts what the ones before have changed, so that the order is
  * of no matter. */
-static double innovation_of(const fr_kalman_state *s, const expected *e, double y, int kind)
+static double innovation_of(const fr_kalman_state *s, const expected_readings *e, double y,
+                            int kind)
 {
     double innovation = y - e->predicted[kind];
     innovation += kind == FR_K_HEIGHT ? e->base : 0.0;
@@ -163,7 +164,7 @@ static double innovation_of(const fr_kalman_state *s, const expected *e, double 
 void fr_kalman_observe(const fr_kalman_model *model, fr_kalman_state *state,
                        const fr_kalman_observation *observed, fr_kalman_node *node)
 {
-    expected e;
+    expected_readings e;
     fr_kalman_linearize(model, state, e.h, e.predicted);
     find_base(observed->mark, state, &e);
     state->p[FR_K_DRIFT][FR_K_DRIFT] += observed->drifted;

@@ -300,7 +300,8 @@ def smooth_by_c(path, drive, edges=None, late=0):
     room = 2_000_000
     out = np.empty(room), np.empty(room), np.empty(room, np.uint8)
     kinds, found, k = ("fr_real *", "fr_real *", "uint8_t *"), [], 0
-    for begin, end in pairwise([0, len(drive)] if edges is None else edges):
+    edges = [*range(0, len(drive), 2000), len(drive)] if edges is None else edges
+    for begin, end in pairwise(edges):
         while k < drive.at.size and drive.at[k] < end - late:
             assert path.read(drive.at[k], drive.y[k]) == 0
             k += 1

@@ -1,0 +1,111 @@
+"""The Kalman smoother with a fixed lag: the SDK's, where the lag is long enough, and flags."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+
+from floatref.estimators.kalman import Noise, Plan
+
+SEEDS = st.integers(0, 2**32 - 1)
+INERTIAL = Noise(
+    acceleration_walk=3e-4, pitch_rate_walk=9.27e-6, constant_pitch=0.1, constant_roll=0.04
+)
+ALONE = Plan(gnss=False, attitude=False)
+VARIANTS = [(Plan(), Noise()), (Plan(attitude=False), Noise()), (ALONE, INERTIAL)]
+UNSETTLED = 8
+INTERVAL_M = 0.125
+WAVELENGTH_M = 105.91
+
+
+def drawn_for(plan, drawn):
+    return drawn if plan.gnss else drawn.without_gnss(0, len(drawn))
+
+
+@settings(max_examples=6, deadline=None)
+@given(seed=SEEDS, variant=st.sampled_from(VARIANTS), interval_m=st.sampled_from([0.0625, 0.25]))
+@example(seed=1, variant=VARIANTS[0], interval_m=0.0625)
+@example(seed=2, variant=VARIANTS[2], interval_m=0.03125)
+def test_with_a_lag_longer_than_the_run_it_is_the_sdks(
+    drive, smoothed_by_sdk, read_at_points, path_of, smoothed, seed, variant, interval_m
+):
+    """At samples within rounding; between them the SDK reads a line, and this one a cubic.
+
+    The second derivative of the correction is an acceleration of less than 0.1 m/s²: over a step
+    dt that is 0.1 dt²/8, and 2e-7 m at 256 Hz. The filter takes all samples of the SDK, of which
+    the compiled kernel fuses products: 1e-9 m of the height, and more than the states have.
+    """
+    plan, noise = variant
+    drawn = drawn_for(plan, drive(seed, 20.0, stops=((9.0, 11.0),)))
+    elevation, sigma = smoothed_by_sdk(drawn, plan, noise)
+    expected = read_at_points(elevation, drawn, interval_m)
+    path = path_of("kalman", drawn, plan, noise, interval_m=interval_m, lag_s=60.0)
+    found, deviation, flags = smoothed(path, drawn)
+    within = 1e-9 if interval_m >= 0.0625 else 2e-7
+    np.testing.assert_allclose(found, expected, rtol=0, atol=within)
+    assert not flags.any()
+    ratio = deviation / read_at_points(sigma, drawn, interval_m)
+    # Marks lie at other nodes; where the 1-sigma varies between them, so do lines through it.
+    assert np.abs(np.median(ratio) - 1.0) < 0.1
+    assert np.quantile(np.abs(ratio - 1.0), 0.75) < 0.25
+
+
+@settings(max_examples=12, deadline=None)
+@given(seed=SEEDS, cuts=st.lists(st.integers(0, 5120), max_size=5), late=st.integers(0, 64))
+def test_any_division_gives_the_same_bits(drive, path_of, smoothed, seed, cuts, late):
+    drawn = drive(seed, 40.0, rate=128, stops=((9.0, 12.0), (25.0, 29.0)))
+    common = {"interval_m": INTERVAL_M, "lag_s": 4.0}
+    whole = smoothed(path_of("kalman", drawn, **common), drawn)
+    path = path_of("kalman", drawn, filter__late_s=0.5, **common)
+    found = smoothed(path, drawn, [0, *sorted(cuts), len(drawn)], late)
+    for one, other in zip(found, whole, strict=True):
+        assert one.tobytes() == other.tobytes()
+
+
+def high_pass(x):
+    """Return HPF_B3x2 of points, without its ends: the gain of both passes."""
+    pad = round(6 * WAVELENGTH_M / INTERVAL_M)
+    wide = np.concatenate([np.full(pad, x[0]), x, np.full(pad, x[-1])])
+    gain = 1 - 1 / (1 + (np.fft.rfftfreq(wide.size, INTERVAL_M) * WAVELENGTH_M) ** 6)
+    return np.fft.irfft(np.fft.rfft(wide) * gain, wide.size)[pad : pad + x.size]
+
+
+def off_by(path, drawn, expected, smoothed):
+    """Return what a lag changes behind the high-pass, and the flags."""
+    found, _, flags = smoothed(path, drawn)
+    return np.abs(high_pass(found - expected)), flags
+
+
+STOPS = [(), ((40.0, 41.0),), ((60.0, 120.0),), ((30.0, 31.0), (60.0, 90.0), (110.0, 115.0))]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stops", STOPS)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_with_gnss_a_lag_of_a_minute_is_as_good_as_the_whole_run(
+    drive, smoothed_by_sdk, read_at_points, path_of, smoothed, stops, seed
+):
+    drawn = drive(seed, 240.0, rate=128, stops=stops)
+    expected = read_at_points(smoothed_by_sdk(drawn, Plan(), Noise())[0], drawn, INTERVAL_M)
+    path = path_of("kalman", drawn, interval_m=INTERVAL_M)
+    change, flags = off_by(path, drawn, expected, smoothed)
+    assert change.max() < 1e-6
+    assert not flags.any()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stops", STOPS)
+@pytest.mark.parametrize("lag_s", [20.0, 60.0])
+def test_without_gnss_what_a_lag_changes_is_flagged(
+    drive, smoothed_by_sdk, read_at_points, path_of, smoothed, stops, lag_s
+):
+    drawn = drawn_for(ALONE, drive(4, 240.0, rate=128, stops=stops))
+    expected = read_at_points(smoothed_by_sdk(drawn, ALONE, INERTIAL)[0], drawn, INTERVAL_M)
+    path = path_of("kalman", drawn, ALONE, INERTIAL, interval_m=INTERVAL_M, lag_s=lag_s)
+    change, flags = off_by(path, drawn, expected, smoothed)
+    print(stops, lag_s, change[flags == 0].max(initial=0), change.max(), (flags != 0).mean())
+    assert set(np.unique(flags)) <= {0, UNSETTLED}
+    assert change[flags == 0].max(initial=0.0) < 5e-4
