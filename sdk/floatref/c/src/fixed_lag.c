@@ -2,6 +2,7 @@
  *
  * Points, updates and nodes of a fixed-lag smoother, as they come.
  */
+#include <math.h>
 #include <string.h>
 
 #include "lag_link.h"
@@ -116,6 +117,34 @@ void fr_lag_begin_section(fr_lag *lag)
     section->first_mark = lag->marks;
 }
 
+/* Whether a node is far enough from the mark before, as the SDK has it: time at a standstill does
+ * not count, and the way to the first node of a segment does not either. */
+static int is_apart(fr_lag *lag, double travel_m, double span)
+{
+    double before = floor(lag->apart), elapsed = travel_m != 0.0 ? span / FR_LAG_APART_S : 0.0;
+    if (lag->begun != 0)
+        lag->apart += fmax(travel_m / FR_LAG_APART_M, elapsed);
+    lag->begun = 1;
+    return floor(lag->apart) > before;
+}
+
+static void mark_node(const fr_lag_view *view, const fr_lag_node_end *end, double span)
+{
+    fr_lag *lag = view->lag;
+    size_t held = (size_t)(lag->marks - lag->first_mark);
+    int apart = is_apart(lag, end->distance_m - lag->distance_m, span);
+    lag->distance_m = fmax(end->distance_m, lag->distance_m);
+    if (end->mark != 0) {
+        lag->apart = 0.0;
+        lag->begun = 0;
+    }
+    if ((lag->kind & FR_LAG_COMPOSED) != 0)
+        return;
+    if ((lag->kind & FR_LAG_MARK) != 0 ||
+        ((apart || end->mark != 0) && held < fr_lag_marks_spaced(lag)))
+        fr_lag_link_mark(view, fr_lag_rows(last_node(view)));
+}
+
 int fr_lag_end_node(const fr_lag_view *view, const fr_lag_node_end *end)
 {
     fr_lag *lag = view->lag;
@@ -131,9 +160,7 @@ int fr_lag_end_node(const fr_lag_view *view, const fr_lag_node_end *end)
     node->updates = making(lag, lag->sections)->updates;
     node->flags |= end->flags;
     (void)memcpy(fr_lag_rows(node), end->covariance, 2u * states * sizeof(double));
-    lag->distance_m = end->distance_m;
-    if ((lag->kind & FR_LAG_MARK) != 0)
-        fr_lag_link_mark(view, fr_lag_rows(node));
+    mark_node(view, end, node->span);
     return (lag->kind & FR_LAG_ENDS) != 0 ? close_section(view, end->covariance) : 0;
 }
 

@@ -39,6 +39,7 @@ typedef struct fr_lag_model {
 /* Sizes and constants. The owner fills it from its configuration. */
 typedef struct fr_lag_shape {
     fr_lag_pace pace;
+    double node_s;       /* between two nodes */
     double interval_m;   /* between points */
     double wavelength_m; /* cut-off of each pass of HPF_B3x2, for the 1-sigma */
     double noise_m;      /* 1-sigma of a reading of the height sensor, which passes as it is */
@@ -68,6 +69,7 @@ typedef struct fr_lag_node_end {
     const double *covariance; /* states x states, row by row */
     int64_t points;           /* reached before the node, from the first of the run */
     int32_t flags;            /* of the point before and of the one behind it */
+    int32_t mark;             /* whether it is a mark, as the SDK's segments end with one */
 } fr_lag_node_end;
 
 /* Where output goes; `made` counts on. */
@@ -113,6 +115,8 @@ typedef struct fr_lag {
     int64_t first_point, points; /* the oldest that is held, and how many there were */
     int64_t first_mark, marks;   /* the same of marks */
     double time_s, distance_m;   /* of the last node */
+    double apart;                /* what has gone since a segment began, in distances of marks */
+    int32_t begun, reserved;     /* whether the next node does not begin a segment */
     double covariance[FR_LAG_STATES * FR_LAG_STATES]; /* where the last section ended */
 } fr_lag;
 

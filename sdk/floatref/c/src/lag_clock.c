@@ -36,7 +36,7 @@ static int may_compose(const fr_lag_clock *clock, const fr_lag_pace *pace)
     if (clock->empty <= pace->patience)
         return 0;
     /* The record begins behind a mark, and one more node has to fit in to end the section. */
-    return clock->composing != 0 || (clock->stops < pace->stops && clock->since_nodes == 0 &&
+    return clock->composing != 0 || (clock->stops < pace->stops && clock->marked != 0 &&
                                      clock->nodes + 2 <= pace->nodes);
 }
 
@@ -60,31 +60,17 @@ static void end_section(fr_lag_clock *clock, const fr_lag_pace *pace)
         release_section(clock);
 }
 
-static int mark_is_due(const fr_lag_clock *clock, const fr_lag_pace *pace)
-{
-    int stops = clock->empty == pace->patience && clock->stops < pace->stops;
-    return stops || clock->since_nodes >= pace->mark_nodes ||
-           clock->points - clock->marked >= pace->mark_points;
-}
-
 static int32_t store_node(fr_lag_clock *clock, const fr_lag_pace *pace, int32_t updates)
 {
-    int32_t kind = 0;
     clock->composing = 0;
     clock->nodes++;
     clock->updates += updates;
-    clock->since_nodes++;
-    if (section_ends(clock, pace)) {
-        end_section(clock, pace);
-        kind = FR_LAG_ENDS | FR_LAG_MARK;
-    } else if (mark_is_due(clock, pace)) {
-        kind = FR_LAG_MARK;
-    }
-    if (kind != 0) {
-        clock->since_nodes = 0;
-        clock->marked = clock->points;
-    }
-    return kind;
+    clock->marked = clock->empty >= pace->patience && clock->stops < pace->stops;
+    if (!section_ends(clock, pace))
+        return clock->marked != 0 ? FR_LAG_MARK : 0;
+    end_section(clock, pace);
+    clock->marked = 1;
+    return FR_LAG_ENDS | FR_LAG_MARK;
 }
 
 int32_t fr_lag_clock_node(fr_lag_clock *clock, const fr_lag_pace *pace, int64_t points,

@@ -21,7 +21,7 @@ enum { FR_LAG_SECTIONS = 3, FR_LAG_UPDATES = 8 };
 
 /* What happens at a node, bit by bit. */
 enum {
-    FR_LAG_MARK = 1,     /* it carries how covariances pass on, from the mark before */
+    FR_LAG_MARK = 1,     /* it carries how covariances pass on; others do every few metres */
     FR_LAG_COMPOSED = 2, /* it is composed with those before it */
     FR_LAG_ENDS = 4      /* a section ends with it */
 };
@@ -33,17 +33,15 @@ typedef struct fr_lag_pace {
     int32_t stops;    /* standstills of a section that are composed; later ones are stored */
     int32_t patience; /* nodes without a point behind which the vehicle is stationary */
     int32_t delay;    /* nodes from the samples to the filter: fewer than `nodes` */
-    int32_t mark_nodes, mark_points; /* between two marks at most */
 } fr_lag_pace;
 
 typedef struct fr_lag_clock {
     int32_t nodes, updates, stops; /* of the section in the making */
     int32_t empty;                 /* nodes in a row that brought no point */
-    int32_t since_nodes;           /* since the last mark */
+    int32_t marked;                /* whether the last node is a mark, for a standstill to begin */
     int32_t due;                   /* nodes until the filter is where a section has ended, or 0 */
     int32_t sections;              /* that have ended and are held, 0 to 3 */
     int32_t composing;             /* whether the last node is part of a standstill's record */
-    int64_t marked;                /* points at the last mark */
     int64_t points;                /* points at the last node, from the first of the run */
     int64_t ends[FR_LAG_SECTIONS]; /* points at the end of each of those sections, oldest first */
     int64_t released;              /* points that have come out */

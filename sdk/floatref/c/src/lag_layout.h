@@ -23,12 +23,19 @@ typedef struct fr_lag_mark {
     double time_s, distance_m, sigma, change;
 } fr_lag_mark;
 
+/* Marks are so far apart, in travel and in time, where the vehicle moves. */
+#define FR_LAG_APART_M 8.0
+#define FR_LAG_APART_S 0.5
+
 /* Marks behind the sections, within reach of the filter of the 1-sigma. */
 enum { FR_LAG_HISTORY = 64 };
 
 #define FR_LAG_NUMBERS(type) ((sizeof(type) + sizeof(double) - 1u) / sizeof(double))
 
 fr_lag_sizes fr_lag_sizes_of(const fr_lag_model *model, const fr_lag_shape *shape);
+
+/* How many marks there may be before a further one for its distance is left out. */
+size_t fr_lag_marks_spaced(const fr_lag *lag);
 
 /* Nodes and updates lie by section, then marks and points as rings over their numbers. */
 static inline double *fr_lag_updates_begin(const fr_lag_view *view)

@@ -89,6 +89,13 @@ void fr_lag_enclose(const double *a, int32_t states, double *found)
     double half[FR_LAG_STATES * FR_LAG_STATES];
     multiply_turned(found, a, states, half);
     multiply_turned(half, a, states, found);
+    /* Rounding that is not symmetric would grow from mark to mark. */
+    for (int32_t i = 0; i < states; i++) {
+        for (int32_t c = 0; c < i; c++) {
+            double mean = 0.5 * (found[i * states + c] + found[c * states + i]);
+            found[i * states + c] = found[c * states + i] = mean;
+        }
+    }
 }
 
 /* Let the later of two marks, one behind the other, carry what the earlier has linked. */

@@ -33,13 +33,20 @@ fr_lag_view fr_road_view(fr_road_prior *road)
     return view;
 }
 
+/* Whether the next node lies in the next segment. */
+static int32_t ends_segment(const fr_road_prior *road)
+{
+    int64_t at = road->filtered * road->sub_block;
+    return (at + road->sub_block) / road->segment > at / road->segment;
+}
+
 /* Hand a node that is filtered to the smoother; a section that is old enough comes out. */
 static void hand_over(fr_road_prior *road, const fr_road_waiting *at, const fr_road_node *node,
                       int32_t leapt, fr_lag_output *output)
 {
     fr_lag_view view = fr_road_view(road);
     fr_lag_node_end end = {0.0, 0.0, node->rise, node->climb, at->place_m, road->largest,
-                           NULL, at->points, leapt ? FR_POINT_LEAP : 0};
+                           NULL, at->points, leapt ? FR_POINT_LEAP : 0, ends_segment(road)};
     end.height = road->filter.x[ROAD_R];
     end.velocity = road->filter.x[ROAD_V];
     end.covariance = road->filter.p[0];

@@ -14,9 +14,8 @@
 #define LEAST_MEMORY_M 32.0
 #define MOST_LAG_S 3600.0
 #define MOST_POINTS_OF_LAG 4e8
-/* Marks for the 1-sigma are so far apart, in travel and in time. */
-#define APART_M 8.0
-#define APART_S 0.5
+/* The SDK's segments, but for the power of two in samples. */
+#define SEGMENT_S 4.0
 /* A vehicle that brings no point for so long is stationary; so many stops of a section compose. */
 #define PATIENCE_S 0.25
 #define STOPS 8
@@ -114,8 +113,7 @@ static fr_lag_shape shape_of(const fr_road_prior_config *config)
         at_least(ceil(0.5 * config->lag_s * config->fastest_mps / config->interval_m), 16);
     shape.pace.stops = STOPS < shape.pace.nodes ? STOPS : shape.pace.nodes;
     shape.pace.patience = at_least(ceil(PATIENCE_S * nodes_hz), 4);
-    shape.pace.mark_nodes = at_least(rint(APART_S * nodes_hz), 1);
-    shape.pace.mark_points = at_least(fmin(APART_M / config->interval_m, 1e9), 1);
+    shape.node_s = 1.0 / nodes_hz;
     return shape;
 }
 
@@ -173,6 +171,7 @@ static void begin_road(fr_road_prior *road, const fr_road_prior_config *config)
     road->step = 1.0 / config->rate_hz;
     road->sub_block = sub_block_of(config);
     interval_s = road->step * road->sub_block;
+    road->segment = (int64_t)ldexp(1.0, at_least(rint(log2(SEGMENT_S * config->rate_hz)), 0));
     road->per_second = at_least(rint(1.0 / interval_s), 1);
     road->model = model_of(config);
     road->reading = road->model.reading;

@@ -50,6 +50,7 @@ struct fr_road_prior {
     int32_t per_second;  /* nodes */
     int32_t travelled;   /* seconds of which the distance is known, at most one more than four */
     int32_t reserved;
+    int64_t segment;     /* samples of a segment, which ends with a mark */
     int64_t nodes;       /* that samples have made */
     int64_t filtered;    /* of these */
     int64_t count;       /* the last one of the encoder */
