@@ -53,6 +53,13 @@ static void hand_over_updates(const fr_kalman_view *view, const fr_kalman_node *
     }
 }
 
+/* Whether the sub-block behind a node ends in the next segment. */
+static int ends_kalman_segment(const fr_kalman *kalman, int64_t at)
+{
+    int64_t length = kalman->engine.model.sub_block, segment = kalman->progress.segment;
+    return (at / length + 1) * length / segment > at / segment;
+}
+
 /* Return whether points have to come out. */
 static int end_node(const fr_kalman_view *view, const fr_kalman_node *node, int64_t points)
 {
@@ -70,6 +77,7 @@ static int end_node(const fr_kalman_view *view, const fr_kalman_node *node, int6
     end.largest = HUGE_VAL;
     end.covariance = &kalman->engine.state.p[0][0];
     end.points = points;
+    end.mark = ends_kalman_segment(kalman, node->at);
     return fr_lag_end_node(&view->lag, &end);
 }
 

@@ -13,9 +13,8 @@
 #define MOST_GNSS_HZ 1000.0
 /* Without a point for so long the vehicle is stationary. */
 #define STATIONARY_S 1.0
-/* Marks are so far apart, in travel and in time. */
-#define MARK_M 8.0
-#define MARK_S 0.5
+/* The SDK's segments, but for the power of two in samples. */
+#define KALMAN_SEGMENT_S 4.0
 /* Standstills of a section that take no further room: one in so many seconds. */
 #define STOP_S 5.0
 
@@ -67,8 +66,6 @@ static fr_lag_pace kalman_pace(const fr_kalman_config *config)
     pace.stops = whole_at_least(section_s / STOP_S, 1);
     pace.patience = whole_at_least(STATIONARY_S * nodes_hz, 1);
     pace.delay = 0;
-    pace.mark_nodes = whole_at_least(MARK_S * most_hz, 1);
-    pace.mark_points = whole_at_least(MARK_M / config->interval_m, 1);
     return pace;
 }
 
@@ -76,6 +73,7 @@ static fr_lag_shape kalman_shape(const fr_kalman_config *config)
 {
     fr_lag_shape shape;
     shape.pace = kalman_pace(config);
+    shape.node_s = 1.0 / fr_kalman_nodes_hz(&config->filter);
     shape.interval_m = config->interval_m;
     shape.wavelength_m = config->wavelength_m;
     shape.noise_m = config->filter.noise.height_m;
@@ -96,6 +94,12 @@ size_t fr_kalman_size(const fr_kalman_config *config)
         return 0u;
     return FR_PADDED(fr_kalman) + fr_kalman_engine_room(&config->filter) +
            numbers * sizeof(double);
+}
+
+static int64_t segment_of(const fr_kalman_config *config)
+{
+    double samples = KALMAN_SEGMENT_S * config->filter.travel.rate_hz;
+    return (int64_t)ldexp(1.0, whole_at_least(rint(log2(samples)), 0));
 }
 
 static void look_at(fr_kalman *kalman, fr_kalman_view *view)
@@ -122,6 +126,7 @@ fr_status fr_kalman_init(void *memory, size_t size, const fr_kalman_config *conf
     shape = kalman_shape(config);
     fr_kalman_engine_set(&(*out)->engine, &config->filter);
     fr_points_set(&(*out)->points, config->interval_m, config->filter.travel.metres_per_count);
+    (*out)->progress.segment = segment_of(config);
     look_at(*out, &view);
     fr_lag_begin(&view.lag, &shape);
     return FR_OK;

@@ -14,6 +14,7 @@ typedef struct fr_kalman_progress {
     double elevation;        /* of the latest sample, before it is smoothed */
     int64_t node;            /* sample of the latest node */
     int64_t furthest;        /* largest count so far */
+    int64_t segment;         /* samples of the SDK's segments, which end with a mark */
     int32_t flags;           /* of the next point */
     int32_t reserved;
 } fr_kalman_progress;

@@ -173,7 +173,7 @@ def by_sdk():
 
 def smooth_by_sdk(drive, plan, noise):
     """Return the elevation and its 1-sigma, smoothed from the whole run, of every sample."""
-    stage = kalman.KalmanSmoother(plan, noise, tolerance_m=0.0)
+    stage = kalman.KalmanSmoother(plan, noise, waiting_s=1e9)
     stage.start(drive.header)
     out = [stage.push(block) for block in drive.blocks()]
     found = join_blocks([block for block in (*out, *stage.finish()) if len(block)])

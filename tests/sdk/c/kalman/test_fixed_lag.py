@@ -17,6 +17,7 @@ INERTIAL = Noise(
 ALONE = Plan(gnss=False, attitude=False)
 VARIANTS = [(Plan(), Noise()), (Plan(attitude=False), Noise()), (ALONE, INERTIAL)]
 UNSETTLED = 8
+TOLERANCE_M, SIGMAS = 1e-4, 5.0
 INTERVAL_M = 0.125
 WAVELENGTH_M = 105.91
 
@@ -34,9 +35,8 @@ def test_with_a_lag_longer_than_the_run_it_is_the_sdks(
 ):
     """At samples within rounding; between them the SDK reads a line, and this one a cubic.
 
-    The second derivative of the correction is an acceleration of less than 0.1 m/s²: over a step
-    dt that is 0.1 dt²/8, and 2e-7 m at 256 Hz. The filter takes all samples of the SDK, of which
-    the compiled kernel fuses products: 1e-9 m of the height, and more than the states have.
+    The second derivative of the correction is an acceleration, of 1 m/s² for the 0.1 rad that the
+    pitch may be off by: over a step dt that is dt²/8, and 2e-6 m at 256 Hz.
     """
     plan, noise = variant
     drawn = drawn_for(plan, drive(seed, 20.0, stops=((9.0, 11.0),)))
@@ -44,13 +44,13 @@ def test_with_a_lag_longer_than_the_run_it_is_the_sdks(
     expected = read_at_points(elevation, drawn, interval_m)
     path = path_of("kalman", drawn, plan, noise, interval_m=interval_m, lag_s=60.0)
     found, deviation, flags = smoothed(path, drawn)
-    within = 1e-9 if interval_m >= 0.0625 else 2e-7
+    within = 1e-9 if interval_m >= 0.0625 else 2e-6
     np.testing.assert_allclose(found, expected, rtol=0, atol=within)
     assert not flags.any()
     ratio = deviation / read_at_points(sigma, drawn, interval_m)
-    # Marks lie at other nodes; where the 1-sigma varies between them, so do lines through it.
-    assert np.abs(np.median(ratio) - 1.0) < 0.1
-    assert np.quantile(np.abs(ratio - 1.0), 0.75) < 0.25
+    # A mark may lie a node earlier or later, and a line between two marks with it.
+    assert np.abs(ratio - 1.0).max() < 0.03
+    assert np.quantile(np.abs(ratio - 1.0), 0.8) < 1e-3
 
 
 @settings(max_examples=12, deadline=None)
@@ -65,11 +65,11 @@ def test_any_division_gives_the_same_bits(drive, path_of, smoothed, seed, cuts, 
         assert one.tobytes() == other.tobytes()
 
 
-def high_pass(x):
-    """Return HPF_B3x2 of points, without its ends: the gain of both passes."""
-    pad = round(6 * WAVELENGTH_M / INTERVAL_M)
+def high_pass(x, interval_m=INTERVAL_M):
+    """Return HPF_B3x2 of points, by the gain of both passes."""
+    pad = round(6 * WAVELENGTH_M / interval_m)
     wide = np.concatenate([np.full(pad, x[0]), x, np.full(pad, x[-1])])
-    gain = 1 - 1 / (1 + (np.fft.rfftfreq(wide.size, INTERVAL_M) * WAVELENGTH_M) ** 6)
+    gain = 1 - 1 / (1 + (np.fft.rfftfreq(wide.size, interval_m) * WAVELENGTH_M) ** 6)
     return np.fft.irfft(np.fft.rfft(wide) * gain, wide.size)[pad : pad + x.size]
 
 
@@ -106,6 +106,26 @@ def test_without_gnss_what_a_lag_changes_is_flagged(
     expected = read_at_points(smoothed_by_sdk(drawn, ALONE, INERTIAL)[0], drawn, INTERVAL_M)
     path = path_of("kalman", drawn, ALONE, INERTIAL, interval_m=INTERVAL_M, lag_s=lag_s)
     change, flags = off_by(path, drawn, expected, smoothed)
-    print(stops, lag_s, change[flags == 0].max(initial=0), change.max(), (flags != 0).mean())
     assert set(np.unique(flags)) <= {0, UNSETTLED}
-    assert change[flags == 0].max(initial=0.0) < 5e-4
+    assert change[flags == 0].max(initial=0.0) < SIGMAS * TOLERANCE_M
+    assert (flags == 0).mean() > (0.1 if lag_s == 20.0 else 0.6)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("stop_s", [1.0, 60.0, 3 * 3600.0])
+def test_a_standstill_takes_no_room_however_long(
+    drive, smoothed_by_sdk, read_at_points, path_of, smoothed, variant, stop_s
+):
+    """At 8 Hz, so that three hours are short; memory is given by the settings alone."""
+    plan, noise = variant
+    drawn = drive(5, 300.0 + stop_s, rate=8, stops=((120.0, 120.0 + stop_s),), every_s=0.5)
+    drawn = drawn_for(plan, drawn)
+    expected = read_at_points(smoothed_by_sdk(drawn, plan, noise)[0], drawn, 2.0)
+    path = path_of("kalman", drawn, plan, noise, interval_m=2.0)
+    assert path.made.memory.nbytes < 2_000_000
+    found, _, flags = smoothed(path, drawn)
+    change = np.abs(high_pass(found - expected, 2.0))
+    assert set(np.unique(flags)) <= {0, UNSETTLED}
+    assert change[flags == 0].max(initial=0.0) < SIGMAS * TOLERANCE_M
+    print(stop_s, plan.gnss, change.max(), change[flags==0].max(), (flags==0).mean(), path.made.memory.nbytes)
+    assert (flags == 0).mean() > 0.5
