@@ -11,7 +11,9 @@ import pytest
 from floatref.estimators import kalman
 from floatref.estimators.kalman import Noise, Plan
 from floatref.estimators.kalman.inputs import GNSS, IMU, QUALITY
-from floatref.values.arrays import Flag
+from floatref.estimators.smoothing.nodes import CORRECTION
+from floatref.estimators.smoothing.segment import interpolate
+from floatref.values.arrays import Flag, new_record
 from floatref.values.block import Axis, Block, Event, Header, join_blocks
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup, TrackSetup
@@ -103,14 +105,17 @@ def speeds(times, stops, cruise=15.0, ramp_s=3.0):
     return speed
 
 
-def make(seed, seconds, rate=256, stops=(), every_s=0.0625, quiet=1.0, cruise=15.0):
-    """Return a drive over a road; the sensors' errors are those of a good unit times ``quiet``."""
+def make(seed, seconds, rate=256, stops=(), every_s=0.0625, quiet=1.0, pace=1.0):
+    """Return a drive over a road; the sensors' errors are those of a good unit times ``quiet``.
+
+    The body moves ``pace`` times as fast as a car's.
+    """
     rng = np.random.default_rng(seed)
     times = np.arange(round(seconds * rate)) / rate
-    speed = speeds(times, stops, cruise)
-    r, v, a = np.add(waves(rng, times, 0.3, 0.02, 0.1), waves(rng, times, 0.02, 0.5, 2.0))
-    theta, theta_dot, _ = waves(rng, times, 0.03, 0.05, 0.8)
-    phi, phi_dot, _ = waves(rng, times, 0.03, 0.05, 0.8)
+    speed = speeds(times, stops)
+    r, v, a = np.add(waves(rng, times, 0.3, 0.02, 0.1), waves(rng, times, 0.02, 0.5 * pace, 2.0 * pace))
+    theta, theta_dot, _ = waves(rng, times, 0.03, 0.05 * pace, 0.8 * pace)
+    phi, phi_dot, _ = waves(rng, times, 0.03, 0.05 * pace, 0.8 * pace)
     forward = np.gradient(speed, 1 / rate) - G * np.sin(theta)
     up = (a + G + np.sin(theta) * forward) / (np.cos(theta) * np.cos(phi))
     true = np.array([forward, 0 * up, up, phi_dot, theta_dot / np.cos(phi), 0 * up]).T
@@ -184,6 +189,25 @@ def smooth_by_sdk(drive, plan, noise):
 @pytest.fixture(scope="session")
 def smoothed_by_sdk():
     return smooth_by_sdk
+
+
+def elevate_by_sdk(drive, plan, noise):
+    """Return the elevation alone: one backward pass of the SDK over all nodes of the run."""
+    stage = kalman.KalmanSmoother(plan, noise)
+    stage.start(drive.header)
+    found = [stage.forward(block)["left"] for block in drive.blocks()]
+    last, beyond = stage.ending()["left"]
+    nodes = last.concatenate([*(each.nodes for each in found), last])
+    adjoint = np.zeros(nodes.states) if beyond is None else beyond
+    corrections = nodes.back(0, 1 / drive.rate, adjoint)
+    height, start = np.concatenate([each.height for each in found]), new_record(CORRECTION)
+    interpolate(0, start, nodes.at, corrections, 0, 1 / drive.rate, height)
+    return height - drive.height
+
+
+@pytest.fixture(scope="session")
+def elevation_by_sdk():
+    return elevate_by_sdk
 
 
 def points_of(drive, interval_m):
