@@ -14,6 +14,8 @@
 
 /* Over so much travel a step fades. */
 #define FADE_M 500.0
+/* Below this speed a rate in time is no slope along the road. */
+#define SLOWEST_MPS 1.0
 
 /* A node with its correction, as the points behind it need it. */
 typedef struct corrected {
@@ -28,15 +30,16 @@ typedef struct emission {
     fr_lag_output *output;
     corrected before;
     int64_t mark, end; /* the mark at or behind the point, and behind the last one to be used */
-    double step_m, from_m; /* the step that fades, and where */
+    double step_m, slope, from_m; /* the step that fades, its slope at first, and where */
     double largest;        /* of the last node */
     size_t first;          /* of this call, in the output */
 } emission;
 
 static double fading(const emission *out, double distance_m)
 {
-    double travel_m = distance_m - out->from_m;
-    return out->step_m == 0.0 ? 0.0 : out->step_m * exp(-(travel_m > 0.0 ? travel_m : 0.0) / FADE_M);
+    double travel_m = fmax(distance_m - out->from_m, 0.0);
+    double line_m = out->step_m + (out->slope + out->step_m / FADE_M) * travel_m;
+    return line_m == 0.0 ? 0.0 : line_m * exp(-travel_m / FADE_M);
 }
 
 /* The correction `since` s behind a node, `span` s before the next. */
@@ -112,7 +115,7 @@ static emission begin_emission(const fr_lag_view *view, fr_lag_output *output, i
     fr_lag *lag = view->lag;
     const fr_lag_origin *origin = &lag->origin;
     emission out = {view, output, {0.0, 0.0, 0.0, {0.0, 0.0}, 0}, 0, end,
-                    0.0,  0.0,    0.0,                          output->made};
+                    0.0,  0.0,    0.0,  0.0, output->made};
     out.mark = lag->sections[lag->oldest].first_mark;
     if (origin->known == 0)
         return out;
@@ -122,6 +125,8 @@ static emission begin_emission(const fr_lag_view *view, fr_lag_output *output, i
     out.before.flags = origin->flags;
     out.before.added = fr_lag_correct(origin->rows, view->model->states, lambda);
     out.step_m = origin->shift_m - out.before.added.height;
+    if (origin->speed > SLOWEST_MPS)
+        out.slope = (origin->rate - out.before.added.velocity) / origin->speed;
     out.from_m = origin->distance_m;
     out.before.added.height += out.step_m;
     return out;
@@ -141,6 +146,25 @@ static void keep_rows(const fr_lag_view *view, double *rows)
     (void)memcpy(rows, fr_lag_rows(node), 2u * (size_t)view->model->states * sizeof *rows);
 }
 
+/* Slope of what fades. */
+static double fading_slope(const emission *out, double distance_m)
+{
+    double travel_m = fmax(distance_m - out->from_m, 0.0), first = out->slope + out->step_m / FADE_M;
+    double line_m = out->step_m + first * travel_m;
+    return (first - line_m / FADE_M) * exp(-travel_m / FADE_M);
+}
+
+/* Speed along the road between the last two marks of the section. */
+static double speed_at_end(const emission *out)
+{
+    if (out->end - 2 < out->view->lag->first_mark)
+        return 0.0;
+    const fr_lag_mark *late = fr_lag_mark_at(out->view, out->end - 1);
+    const fr_lag_mark *early = fr_lag_mark_at(out->view, out->end - 2);
+    double span = late->time_s - early->time_s;
+    return span > 0.0 ? (late->distance_m - early->distance_m) / span : 0.0;
+}
+
 static void keep_origin(const emission *out, const double *rows)
 {
     fr_lag *lag = out->view->lag;
@@ -152,6 +176,8 @@ static void keep_origin(const emission *out, const double *rows)
     origin->time_s = out->before.time_s;
     origin->distance_m = fr_lag_node_at(out->view, lag->oldest, last)->distance_m;
     origin->shift_m = out->before.added.height;
+    origin->speed = speed_at_end(out);
+    origin->rate = out->before.added.velocity + fading_slope(out, origin->distance_m) * origin->speed;
     origin->flags = out->before.flags;
     origin->known = 1;
 }
