@@ -16,6 +16,7 @@
 #define FADE_M 500.0
 /* Below this speed a rate in time is no slope along the road. */
 #define SLOWEST_MPS 1.0
+#define HALF_SECOND 0.5
 
 /* A node with its correction, as the points behind it need it. */
 typedef struct corrected {
@@ -125,7 +126,7 @@ static emission begin_emission(const fr_lag_view *view, fr_lag_output *output, i
     out.before.flags = origin->flags;
     out.before.added = fr_lag_correct(origin->rows, view->model->states, lambda);
     out.step_m = origin->shift_m - out.before.added.height;
-    if (origin->speed > SLOWEST_MPS)
+    if (origin->speed > 0.0)
         out.slope = (origin->rate - out.before.added.velocity) / origin->speed;
     out.from_m = origin->distance_m;
     out.before.added.height += out.step_m;
@@ -154,15 +155,19 @@ static double fading_slope(const emission *out, double distance_m)
     return (first - line_m / FADE_M) * exp(-travel_m / FADE_M);
 }
 
-/* Speed along the road between the last two marks of the section. */
-static double speed_at_end(const emission *out)
+/* Speed along the road in the last half second of the oldest section; 0 where it is slow, or next
+ * to a standstill. */
+static double speed_at_end(const fr_lag_view *view)
 {
-    if (out->end - 2 < out->view->lag->first_mark)
-        return 0.0;
-    const fr_lag_mark *late = fr_lag_mark_at(out->view, out->end - 1);
-    const fr_lag_mark *early = fr_lag_mark_at(out->view, out->end - 2);
-    double span = late->time_s - early->time_s;
-    return span > 0.0 ? (late->distance_m - early->distance_m) / span : 0.0;
+    int32_t place = view->lag->oldest, last = view->lag->sections[place].nodes - 1, k = last;
+    double span = 0.0, speed;
+    while (k > 0 && fr_lag_node_at(view, place, k)->mark < 0 && span < HALF_SECOND - 1e-9) {
+        span += fr_lag_node_at(view, place, k)->span;
+        k--;
+    }
+    speed = fr_lag_node_at(view, place, last)->distance_m - fr_lag_node_at(view, place, k)->distance_m;
+    speed = span > 0.0 ? speed / span : 0.0;
+    return speed >= SLOWEST_MPS ? speed : 0.0;
 }
 
 static void keep_origin(const emission *out, const double *rows)
@@ -176,7 +181,7 @@ static void keep_origin(const emission *out, const double *rows)
     origin->time_s = out->before.time_s;
     origin->distance_m = fr_lag_node_at(out->view, lag->oldest, last)->distance_m;
     origin->shift_m = out->before.added.height;
-    origin->speed = speed_at_end(out);
+    origin->speed = speed_at_end(out->view);
     origin->rate = out->before.added.velocity + fading_slope(out, origin->distance_m) * origin->speed;
     origin->flags = out->before.flags;
     origin->known = 1;
