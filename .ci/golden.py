@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import golden_road_prior as road_prior
 import golden_single as single
 import numpy as np
 from golden_vectors import Vector, vectors
@@ -97,6 +98,10 @@ def in_single(vector: Vector) -> Mapping[str, Any]:
                 single.tangents(i["cutoff"], 1 / s["rate_hz"], f["height"].size),
                 1 / s["rate_hz"],
             )
+        },
+        # Its states are double: in single precision a variance comes out below zero.
+        "road-prior-smoother": lambda: {
+            "elevation": road_prior.elevation(s, {**f, "distance": i["distance"]}, float).astype(F)
         },
         "iri": lambda: roughness(s, i),
         "cross-correlation": lambda: {

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+import golden_road_prior as road_prior
 import numpy as np
 from numpy.typing import NDArray
 
@@ -198,6 +199,13 @@ def whole() -> Iterator[Vector]:
     )
 
 
+def smoothers() -> Iterator[Vector]:
+    """Yield the road prior through a stop, smoothed by the whole run."""
+    given = road_prior.sensors(distances(stop(360, 100.0, 8.0, 0.3), 100.0), 100.0)
+    outputs = {"elevation": road_prior.elevation(road_prior.SETTINGS, given, np.longdouble)}
+    yield _one("road-prior-smoother", "(2.2), (2.4), (6.17)", road_prior.SETTINGS, given, outputs)
+
+
 def measures() -> Iterator[Vector]:
     """Yield what is done to a finished profile."""
     z = wave(300, (0.02, 187.0), (0.004, 31.0), (0.001, 7.0))
@@ -247,5 +255,6 @@ def validity() -> Iterator[Vector]:
 
 def vectors() -> Iterator[Vector]:
     """Yield all vectors."""
-    for group in (sections, varying_sections, in_time, over_distance, whole, measures, validity):
+    groups = sections, varying_sections, in_time, over_distance, whole, smoothers, measures
+    for group in (*groups, validity):
         yield from group()

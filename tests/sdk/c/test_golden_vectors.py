@@ -115,6 +115,18 @@ def spatial(library, s, i):
     return {"elevation": filters.push(r - h, call="reverse")[1]}
 
 
+def smoothed(library, s, i):
+    """The road prior with a lag longer than the run, so that all points come at the end."""
+    made = library.make("road_prior", metres_per_count=MICROMETRE, **s)
+    flags, written = np.empty(999, np.uint8), library.ffi.new("size_t *")
+    where, elevation, sigma = counts(i["distance"]), *np.empty((2, 999), library.dtype)
+    inputs = [library.array(x) for x in (i["acceleration"], i["height"], where)]
+    outputs = library.at(elevation), library.at(sigma), library.ffi.from_buffer("uint8_t[]", flags)
+    assert made.call("push", *map(library.at, inputs), where.size, *outputs, 999, written) == 0
+    assert made.call("finish", *outputs, 999, written) == 0
+    return {"elevation": elevation[: written[0]]}
+
+
 def roughness(library, s, i):
     made = library.make("iri", **s)
     _, trace = made.push(i["elevation"])
@@ -136,6 +148,7 @@ STAGES = {
     "spatial-integration": over_points,
     "reflection": reflected,
     "matched-high-pass": observed,
+    "road-prior-smoother": smoothed,
     "adaptive-hpf-spatial-backward": temporal,
     "timer-distortion-reflection": spatial,
     "iri": roughness,

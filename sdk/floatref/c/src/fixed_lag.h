@@ -94,8 +94,9 @@ typedef struct fr_lag_section {
 /* The node at which the oldest section begins, and what was given out there. */
 typedef struct fr_lag_origin {
     double rows[2 * FR_LAG_STATES]; /* of the covariance: height, velocity */
-    double height, velocity, time_s, distance_m, shift_m;
-    double bend_to_m; /* up to there a bend may show that later readings make at this node */
+    double height, velocity, time_s, distance_m;
+    double shift_m, rate;  /* correction that was given out, and its rate in m/s */
+    double speed;          /* along the road, in m/s */
     int32_t known; /* 0 before the first section has come out */
     int32_t flags; /* for the next point */
 } fr_lag_origin;

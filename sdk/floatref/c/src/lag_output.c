@@ -14,11 +14,9 @@
 
 /* Over so much travel a step fades. */
 #define FADE_M 500.0
-/* HPF_B3x2 leaves of a bend by one its wavelength times 1/(6 pi), and within half a wavelength. */
-#define LEFT_OF_BEND 0.0530516476972984
-#define WIDTH_OF_BEND 0.5
-/* Slower than this the slope of an error over distance is not asked for. */
+/* Below this speed a rate in time is no slope along the road. */
 #define SLOWEST_MPS 1.0
+#define HALF_SECOND 0.5
 
 /* A node with its correction, as the points behind it need it. */
 typedef struct corrected {
@@ -33,16 +31,16 @@ typedef struct emission {
     fr_lag_output *output;
     corrected before;
     int64_t mark, end; /* the mark at or behind the point, and behind the last one to be used */
-    double step_m, from_m; /* the step that fades, and where */
-    double bend_from_m, bend_to_m; /* points in front of a bend, and behind the one before */
+    double step_m, slope, from_m; /* the step that fades, its slope at first, and where */
     double largest;        /* of the last node */
     size_t first;          /* of this call, in the output */
 } emission;
 
 static double fading(const emission *out, double distance_m)
 {
-    double travel_m = distance_m - out->from_m;
-    return out->step_m == 0.0 ? 0.0 : out->step_m * exp(-(travel_m > 0.0 ? travel_m : 0.0) / FADE_M);
+    double travel_m = fmax(distance_m - out->from_m, 0.0);
+    double line_m = out->step_m + (out->slope + out->step_m / FADE_M) * travel_m;
+    return line_m == 0.0 ? 0.0 : line_m * exp(-travel_m / FADE_M);
 }
 
 /* The correction `since` s behind a node, `span` s before the next. */
@@ -81,8 +79,6 @@ static void emit(emission *out, const fr_lag_point_held *point, const fr_lag_nod
     double height = before->height + point->since * before->velocity;
     if (sigma > node->largest)
         flags |= FR_POINT_UNCERTAIN;
-    if (node->distance_m >= out->bend_from_m || node->distance_m <= out->bend_to_m)
-        flags |= FR_POINT_UNSETTLED;
     height += cubic(before, near, node->span, point->since);
     output->elevation[output->made] = FR_R(point->elevation + height);
     output->sigma[output->made] = FR_R(sigma);
@@ -119,8 +115,8 @@ static emission begin_emission(const fr_lag_view *view, fr_lag_output *output, i
 {
     fr_lag *lag = view->lag;
     const fr_lag_origin *origin = &lag->origin;
-    emission out = {view, output, {0.0, 0.0, 0.0, {0.0, 0.0}, 0}, 0, end, 0.0, 0.0, HUGE_VAL,
-                    -HUGE_VAL, 0.0, output->made};
+    emission out = {view, output, {0.0, 0.0, 0.0, {0.0, 0.0}, 0}, 0, end,
+                    0.0,  0.0,    0.0,  0.0, output->made};
     out.mark = lag->sections[lag->oldest].first_mark;
     if (origin->known == 0)
         return out;
@@ -130,8 +126,9 @@ static emission begin_emission(const fr_lag_view *view, fr_lag_output *output, i
     out.before.flags = origin->flags;
     out.before.added = fr_lag_correct(origin->rows, view->model->states, lambda);
     out.step_m = origin->shift_m - out.before.added.height;
+    if (origin->speed > 0.0)
+        out.slope = (origin->rate - out.before.added.velocity) / origin->speed;
     out.from_m = origin->distance_m;
-    out.bend_to_m = origin->bend_to_m;
     out.before.added.height += out.step_m;
     return out;
 }
@@ -142,42 +139,35 @@ static void emit_section(emission *out, int32_t place)
         emit_span(out, fr_lag_node_at(out->view, place, k));
 }
 
-/* Travel speed at a mark, by the one before. */
-static double speed_at_mark(const fr_lag_view *view, int64_t number)
-{
-    const fr_lag_mark *late = fr_lag_mark_at(view, number), *early = late;
-    double speed_mps = 0.0;
-    if (number > view->lag->first_mark)
-        early = fr_lag_mark_at(view, number - 1);
-    if (late->time_s > early->time_s)
-        speed_mps = (late->distance_m - early->distance_m) / (late->time_s - early->time_s);
-    return fmax(speed_mps, SLOWEST_MPS);
-}
-
-/* What comes out stays, so readings to come that change level and slope at its end bend the profile
- * there. Say from where on that may show, and up to where. */
-static void foresee_bend(emission *out, const double *rows)
-{
-    const fr_lag_view *view = out->view;
-    const fr_lag_mark *last = fr_lag_mark_at(view, out->end - 1);
-    double m[FR_LAG_STATES], speed_mps = speed_at_mark(view, out->end - 1), width_m, bend;
-    for (int32_t i = 0; i < view->model->states; i++)
-        m[i] = rows[view->model->states + i] / speed_mps + rows[i] / FADE_M;
-    bend = fr_lag_change_of(view, out->end, m);
-    view->lag->origin.bend_to_m = -HUGE_VAL;
-    if (!(LEFT_OF_BEND * view->lag->shape.wavelength_m * bend > view->lag->shape.tolerance_m))
-        return;
-    width_m = WIDTH_OF_BEND * view->lag->shape.wavelength_m;
-    out->bend_from_m = last->distance_m - width_m;
-    view->lag->origin.bend_to_m = last->distance_m + width_m;
-}
-
 /* Remember the last node of the oldest section, before its rows go. */
 static void keep_rows(const fr_lag_view *view, double *rows)
 {
     const fr_lag *lag = view->lag;
     fr_lag_node *node = fr_lag_node_at(view, lag->oldest, lag->sections[lag->oldest].nodes - 1);
     (void)memcpy(rows, fr_lag_rows(node), 2u * (size_t)view->model->states * sizeof *rows);
+}
+
+/* Slope of what fades. */
+static double fading_slope(const emission *out, double distance_m)
+{
+    double travel_m = fmax(distance_m - out->from_m, 0.0), first = out->slope + out->step_m / FADE_M;
+    double line_m = out->step_m + first * travel_m;
+    return (first - line_m / FADE_M) * exp(-travel_m / FADE_M);
+}
+
+/* Speed along the road in the last half second of the oldest section; 0 where it is slow, or next
+ * to a standstill. */
+static double speed_at_end(const fr_lag_view *view)
+{
+    int32_t place = view->lag->oldest, last = view->lag->sections[place].nodes - 1, k = last;
+    double span = 0.0, speed;
+    while (k > 0 && fr_lag_node_at(view, place, k)->mark < 0 && span < HALF_SECOND - 1e-9) {
+        span += fr_lag_node_at(view, place, k)->span;
+        k--;
+    }
+    speed = fr_lag_node_at(view, place, last)->distance_m - fr_lag_node_at(view, place, k)->distance_m;
+    speed = span > 0.0 ? speed / span : 0.0;
+    return speed >= SLOWEST_MPS ? speed : 0.0;
 }
 
 static void keep_origin(const emission *out, const double *rows)
@@ -191,6 +181,8 @@ static void keep_origin(const emission *out, const double *rows)
     origin->time_s = out->before.time_s;
     origin->distance_m = fr_lag_node_at(out->view, lag->oldest, last)->distance_m;
     origin->shift_m = out->before.added.height;
+    origin->speed = speed_at_end(out->view);
+    origin->rate = out->before.added.velocity + fading_slope(out, origin->distance_m) * origin->speed;
     origin->flags = out->before.flags;
     origin->known = 1;
 }
@@ -202,7 +194,6 @@ static void emit_rest(emission *out)
     fr_lag_node end;
     (void)memset(&end, 0, sizeof end);
     end.largest = out->largest;
-    end.distance_m = lag->distance_m;
     for (; lag->first_point < lag->points; lag->first_point++)
         emit(out, fr_lag_point_at(out->view, lag->first_point), &end, out->before.added);
 }
@@ -221,7 +212,6 @@ void fr_lag_release(const fr_lag_view *view, fr_lag_output *output)
     keep_rows(view, rows);
     fr_lag_back_nodes(view, lag->oldest, lambda);
     out = begin_emission(view, output, end, lambda);
-    foresee_bend(&out, rows);
     emit_section(&out, lag->oldest);
     keep_origin(&out, rows);
     fr_lag_link_forget(view, end);

@@ -175,26 +175,20 @@ static double explained(double *z, double *spread, int32_t size)
     return sum;
 }
 
-double fr_lag_change_of(const fr_lag_view *view, int64_t from, double *m)
-{
-    double z[FR_LAG_STATES], spread[FR_LAG_STATES * FR_LAG_STATES];
-    int32_t size;
-    for (int64_t k = from; k < view->lag->marks; k++)
-        fr_lag_apply(fr_lag_passed(view, fr_lag_mark_at(view, k)), view->model->states, m);
-    size = see_last(view, m, z, spread);
-    scale(z, spread, size);
-    return sqrt(explained(z, spread, size));
-}
-
 void fr_lag_sigmas(const fr_lag_view *view, int64_t begin, int64_t end, int ended)
 {
     const fr_lag *lag = view->lag;
-    double m[FR_LAG_STATES];
+    double m[FR_LAG_STATES], z[FR_LAG_STATES], spread[FR_LAG_STATES * FR_LAG_STATES];
     for (int64_t k = begin; k < end; k++) {
         fr_lag_mark *mark = fr_lag_mark_at(view, k);
         double variance = variance_along(view, k, ended != 0 ? 0 : lag->marks, m);
         mark->sigma = sqrt((variance > 0.0 ? variance : 0.0) +
                            lag->shape.noise_m * lag->shape.noise_m);
-        mark->change = ended != 0 ? 0.0 : fr_lag_change_of(view, lag->marks, m);
+        mark->change = 0.0;
+        if (ended != 0)
+            continue;
+        int32_t size = see_last(view, m, z, spread);
+        scale(z, spread, size);
+        mark->change = sqrt(explained(z, spread, size));
     }
 }

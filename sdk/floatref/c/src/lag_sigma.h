@@ -14,8 +14,4 @@ void fr_lag_settle(const fr_lag_view *view);
  * to come may change them, 1-sigma in m. */
 void fr_lag_sigmas(const fr_lag_view *view, int64_t begin, int64_t end, int ended);
 
-/* By how much readings to come may change an error, 1-sigma, of which m is the covariance with the
- * state at mark `from - 1`. m goes on to the last mark. */
-double fr_lag_change_of(const fr_lag_view *view, int64_t from, double *m);
-
 #endif
