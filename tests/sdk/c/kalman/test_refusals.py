@@ -129,7 +129,7 @@ def test_a_copy_of_the_memory_goes_on_alike(made_of, kind):
 
 @KINDS
 def test_at_the_end_the_run_is_over(made_of, kind):
-    path, push, drawn = made_of(kind)
+    path, push, _ = made_of(kind)
     assert push(0, 600)[0] == "FR_OK"
     written = path.ffi.new("size_t *")
     keep = [np.empty(9000) for _ in OUTPUTS[kind]]
