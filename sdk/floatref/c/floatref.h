@@ -458,9 +458,9 @@ enum {
  * come out in sections of half a lag, with at least the lag behind them, in bounded memory. A
  * standstill of any length takes no more; what a lag is too short for is flagged.
  *
- * All of it is computed in double, in the float build too. Memory in bytes, near enough, with n =
- * lag_s node_rate_hz and p = lag_s fastest_mps / interval_m: 480 n + 48 p + 16 n / m + 2 p / q
- * kilobytes of marks and so on: fr_road_prior_size() says it, docs/c-library.md shows it.
+ * All of it is computed in double, in the float build too. Of memory, a node takes 480 bytes, a
+ * point 48 and a second of the lag 3720 and 248 for each m/s of `fastest_mps`; so the lag decides,
+ * see docs/c-library.md. A call that gives points out takes far longer than others.
  */
 typedef struct fr_road_prior_config {
     double rate_hz;          /* samples per second, 10 at least; no default */

@@ -20,7 +20,9 @@ typedef struct fr_lag_node {
 /* A mark; behind it P e_r, (I - Lambda P) e_r, the adjoint's push, then Psi and the information
  * since the mark before. */
 typedef struct fr_lag_mark {
-    double time_s, distance_m, sigma, change;
+    double time_s, distance_m, sigma;
+    double change; /* by readings to come when it came out, 1-sigma in m */
+    double doubt;  /* the largest of that within half a wavelength */
 } fr_lag_mark;
 
 /* Marks are so far apart, in travel and in time, where the vehicle moves. */

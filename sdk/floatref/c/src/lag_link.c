@@ -40,6 +40,7 @@ void fr_lag_link_mark(const fr_lag_view *view, const double *column)
     mark->distance_m = lag->distance_m;
     mark->sigma = 0.0;
     mark->change = 0.0;
+    mark->doubt = 0.0;
     (void)memcpy(fr_lag_column(mark), column, states * sizeof *column);
     (void)memcpy(fr_lag_pushed(view, mark), lag->link.pushed, states * sizeof *column);
     (void)memcpy(fr_lag_passed(view, mark), lag->link.psi, square * sizeof *column);
@@ -106,6 +107,7 @@ static void join_marks(const fr_lag_view *view, fr_lag_mark *early, fr_lag_mark 
     const double *first = fr_lag_passed(view, early);
     double *gathered = fr_lag_gathered(view, late);
     const double *earlier = fr_lag_gathered(view, early);
+    late->change = late->change > early->change ? late->change : early->change;
     fr_lag_enclose(first, states, gathered);
     for (int32_t i = 0; i < square; i++)
         gathered[i] += earlier[i];

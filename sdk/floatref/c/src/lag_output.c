@@ -61,7 +61,7 @@ static double sigma_at(emission *out, double time_s, int32_t *flags)
     const fr_lag_mark *late = fr_lag_mark_at(out->view, out->mark), *early = late;
     if (out->mark > lag->first_mark)
         early = fr_lag_mark_at(out->view, out->mark - 1);
-    if (fmax(early->change, late->change) > lag->shape.tolerance_m)
+    if (fmax(early->doubt, late->doubt) > lag->shape.tolerance_m)
         *flags |= FR_POINT_UNSETTLED;
     if (!(late->time_s > early->time_s) || time_s >= late->time_s)
         return late->sigma;
@@ -206,8 +206,7 @@ void fr_lag_release(const fr_lag_view *view, fr_lag_output *output)
     double lambda[FR_LAG_STATES] = {0.0}, rows[2 * FR_LAG_STATES];
     emission out;
     fr_lag_settle(view);
-    /* The mark before begins the line to the first one, as it is known now. */
-    fr_lag_sigmas(view, begin > lag->first_mark ? begin - 1 : begin, end, 0);
+    fr_lag_sigmas(view, begin, end, 0);
     fr_lag_back_marks(view, end, lambda);
     keep_rows(view, rows);
     fr_lag_back_nodes(view, lag->oldest, lambda);
@@ -229,7 +228,7 @@ void fr_lag_finish(const fr_lag_view *view, const double *lambda, fr_lag_output 
     if (lambda != NULL)
         (void)memcpy(behind, lambda, (size_t)view->model->states * sizeof *behind);
     fr_lag_settle(view);
-    fr_lag_sigmas(view, begin > lag->first_mark ? begin - 1 : begin, lag->marks, 1);
+    fr_lag_sigmas(view, begin, lag->marks, 1);
     for (int32_t k = lag->held - 1; k >= 0; k--)
         fr_lag_back_nodes(view, (lag->oldest + k) % FR_LAG_SECTIONS, behind);
     out = begin_emission(view, output, lag->marks, behind);

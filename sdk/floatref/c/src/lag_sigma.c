@@ -175,20 +175,48 @@ static double explained(double *z, double *spread, int32_t size)
     return sum;
 }
 
+static double sigma_of(const fr_lag_view *view, double variance)
+{
+    double noise_m = view->lag->shape.noise_m;
+    return sqrt((variance > 0.0 ? variance : 0.0) + noise_m * noise_m);
+}
+
+static void look_ahead(const fr_lag_view *view, int64_t number)
+{
+    fr_lag_mark *mark = fr_lag_mark_at(view, number);
+    double m[FR_LAG_STATES], z[FR_LAG_STATES], spread[FR_LAG_STATES * FR_LAG_STATES];
+    int32_t size;
+    mark->sigma = sigma_of(view, variance_along(view, number, view->lag->marks, m));
+    size = see_last(view, m, z, spread);
+    scale(z, spread, size);
+    mark->change = sqrt(explained(z, spread, size));
+}
+
+/* The largest change of marks before `end` within half a wavelength. */
+static double doubt_about(const fr_lag_view *view, int64_t number, int64_t end)
+{
+    double within_m = 0.5 * view->lag->shape.wavelength_m, place_m = distance_of(view, number);
+    double most = fr_lag_mark_at(view, number)->change;
+    for (int64_t k = number - 1;
+         k >= view->lag->first_mark && place_m - distance_of(view, k) <= within_m; k--)
+        most = fmax(most, fr_lag_mark_at(view, k)->change);
+    for (int64_t k = number + 1; k < end && distance_of(view, k) - place_m <= within_m; k++)
+        most = fmax(most, fr_lag_mark_at(view, k)->change);
+    return most;
+}
+
 void fr_lag_sigmas(const fr_lag_view *view, int64_t begin, int64_t end, int ended)
 {
-    const fr_lag *lag = view->lag;
-    double m[FR_LAG_STATES], z[FR_LAG_STATES], spread[FR_LAG_STATES * FR_LAG_STATES];
+    int64_t before = begin > view->lag->first_mark ? begin - 1 : begin;
+    double m[FR_LAG_STATES];
+    if (before < begin)
+        fr_lag_mark_at(view, before)->sigma = sigma_of(view, variance_along(view, before, 0, m));
     for (int64_t k = begin; k < end; k++) {
-        fr_lag_mark *mark = fr_lag_mark_at(view, k);
-        double variance = variance_along(view, k, ended != 0 ? 0 : lag->marks, m);
-        mark->sigma = sqrt((variance > 0.0 ? variance : 0.0) +
-                           lag->shape.noise_m * lag->shape.noise_m);
-        mark->change = 0.0;
         if (ended != 0)
-            continue;
-        int32_t size = see_last(view, m, z, spread);
-        scale(z, spread, size);
-        mark->change = sqrt(explained(z, spread, size));
+            fr_lag_mark_at(view, k)->sigma = sigma_of(view, variance_along(view, k, 0, m));
+        else
+            look_ahead(view, k);
     }
+    for (int64_t k = before; k < end; k++)
+        fr_lag_mark_at(view, k)->doubt = doubt_about(view, k, end);
 }
