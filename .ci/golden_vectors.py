@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+import golden_kalman as kalman
 import golden_road_prior as road_prior
 import numpy as np
 from numpy.typing import NDArray
@@ -200,7 +201,10 @@ def whole() -> Iterator[Vector]:
 
 
 def smoothers() -> Iterator[Vector]:
-    """Yield the road prior through a stop, smoothed by the whole run."""
+    """Yield both smoothers through a stop, smoothed by the whole run."""
+    given = kalman.sensors(distances(stop(300, 100.0, 8.0, 0.3), 100.0), 100.0)
+    outputs = {"elevation": kalman.elevation(kalman.SETTINGS, given)}
+    yield _one("kalman-smoother", "(6.13), (6.17)", kalman.SETTINGS, given, outputs)
     given = road_prior.sensors(distances(stop(360, 100.0, 8.0, 0.3), 100.0), 100.0)
     outputs = {"elevation": road_prior.elevation(road_prior.SETTINGS, given, np.longdouble)}
     yield _one("road-prior-smoother", "(2.2), (2.4), (6.17)", road_prior.SETTINGS, given, outputs)
