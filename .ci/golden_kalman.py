@@ -94,3 +94,10 @@ def rounded_to_single(i: Mapping[str, Any]) -> dict[str, Array]:
     """Return the inputs of which samples are rounded to single precision, not the places."""
     places = ("distance", "gnss_at", "gnss_height")
     return {name: x if name in places else np.asarray(x, np.float32) for name, x in i.items()}
+
+
+def vector(distance: Array) -> tuple[str, str, dict[str, float], dict[str, Array], dict[str, Any]]:
+    """Return stage, equations, settings, inputs and outputs over a drive at 100 Hz."""
+    given = sensors(distance, SETTINGS["rate_hz"])
+    outputs = {"elevation": elevation(SETTINGS, given)}
+    return "kalman-smoother", "(6.13), (6.17)", SETTINGS, given, outputs

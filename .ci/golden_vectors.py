@@ -132,9 +132,8 @@ def in_time() -> Iterator[Vector]:
         "frequency": s57.cut_off_frequency(slow),
         "wave_number": s57.cut_off_wave_number(slow, 0.025),
     }
-    yield _one(
-        "adaptive-cut-off", "(5.3)", {**SCHEDULE, "interval_m": 0.025}, {"speed": slow}, outputs
-    )
+    settings = {**SCHEDULE, "interval_m": 0.025}
+    yield _one("adaptive-cut-off", "(5.3)", settings, {"speed": slow}, outputs)
     controlled = s56.controlled_velocity(x, slow, 1 / rate_hz)
     gains = {
         "rate_hz": rate_hz,
@@ -142,9 +141,8 @@ def in_time() -> Iterator[Vector]:
         "proportional": 0.001,
         "integral_per_s": 0.834,
     }
-    yield _one(
-        "local-suppression", "(5.1), (5.2)", gains, {"x": x, "speed": slow}, {"y": controlled}
-    )
+    inputs = {"x": x, "speed": slow}
+    yield _one("local-suppression", "(5.1), (5.2)", gains, inputs, {"y": controlled})
 
 
 def _one(stage: str, equation: str, settings: Numbers, inputs: Any, outputs: Any) -> Vector:
@@ -202,9 +200,7 @@ def whole() -> Iterator[Vector]:
 
 def smoothers() -> Iterator[Vector]:
     """Yield both smoothers through a stop, smoothed by the whole run."""
-    given = kalman.sensors(distances(stop(300, 100.0, 8.0, 0.3), 100.0), 100.0)
-    outputs = {"elevation": kalman.elevation(kalman.SETTINGS, given)}
-    yield _one("kalman-smoother", "(6.13), (6.17)", kalman.SETTINGS, given, outputs)
+    yield _one(*kalman.vector(distances(stop(300, 100.0, 8.0, 0.3), 100.0)))
     given = road_prior.sensors(distances(stop(360, 100.0, 8.0, 0.3), 100.0), 100.0)
     outputs = {"elevation": road_prior.elevation(road_prior.SETTINGS, given, np.longdouble)}
     yield _one("road-prior-smoother", "(2.2), (2.4), (6.17)", road_prior.SETTINGS, given, outputs)

@@ -2,6 +2,7 @@
  *
  * h(x) of (6.48) and its derivatives (C.8), with the lever arm's forward part.
  */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -30,7 +31,8 @@ static lever lever_of(const fr_kalman_model *model, const fr_kalman_state *s)
     l.whirl[1] = q3 * lx - q1 * lz;
     l.whirl[2] = q1 * ly - q2 * lx;
     l.inclined = l.ct * l.sp;
-    l.root = sqrt(1.0 - l.inclined * l.inclined);
+    /* A body that lies on its side has no roll: a huge derivative in place of one by zero. */
+    l.root = fmax(sqrt(1.0 - l.inclined * l.inclined), DBL_MIN);
     return l;
 }
 
