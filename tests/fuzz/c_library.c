@@ -13,7 +13,7 @@
 
 #include "floatref.h"
 
-enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 20, CALLS = 32, KINDS = 13 };
+enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 20, CALLS = 35, KINDS = 14 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -29,10 +29,12 @@ typedef union any_config {
     fr_matched_high_pass_config matched_high_pass;
     fr_iri_config iri;
     fr_screening_config screening;
+    fr_road_prior_config road_prior;
 } any_config;
 
 typedef struct arrays {
-    fr_real *x, *h, *f, *s, *y, *z;
+    fr_real *x, *h, *f, *s, *p, *y, *z; /* p: shares */
+    uint8_t *b;
     int64_t *n;
     fr_span *spans;
     size_t count, capacity, written;
@@ -94,6 +96,9 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
         KIND(11, iri, c.interval_m = interval)
         KIND(12, screening, c.rate_hz = 250; c.metres_per_count = count_m;
              c.spread_mps2 = draw(2) * 0.1)
+        KIND(13, road_prior, c.rate_hz = 250; c.metres_per_count = count_m;
+             c.interval_m = interval; c.node_rate_hz = 10.0 + draw(300); c.lag_s = 0.1 + 0.1 * draw(9);
+             c.missing = (int)draw(2); c.back = (int)draw(2); c.fastest_mps = 20.0 + draw(99))
     default:
         return FR_BAD_CONFIG;
     }
@@ -107,6 +112,12 @@ static fr_status call(int which, void *o, arrays *a)
     fr_timer_distortion_config timer = {0.05, 3.576, 25.0};
     switch (which) {
     case 12: return fr_screening_push(o, a->x, draw(9) ? a->h : NULL, a->n, n, a->spans, room, w);
+    case 13: return fr_road_prior_push(o, a->x, a->h, a->n, n, a->y, a->z, a->b, room, w);
+    case 32:
+        return fr_road_prior_push_levelled(o, a->x, a->h, a->n, draw(2) ? a->p : NULL,
+                                           draw(2) ? a->p : NULL, n, a->y, a->z, a->b, room, w);
+    case 33: return fr_road_prior_finish(o, a->y, a->z, a->b, room, w);
+    case 34: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
     case 30: return fr_screening_finish(o, a->spans, room, w);
     case 31: return fr_high_pass_set_velocity(o, a->x, n, a->y, room, w);
     case 0: return fr_filter_push(o, a->x, n, a->y, room, w);
@@ -121,7 +132,6 @@ static fr_status call(int which, void *o, arrays *a)
     case 9: return fr_local_suppression_push(o, a->x, a->f, n, a->y, room, w);
     case 10: return fr_matched_high_pass_push(o, a->x, a->h, a->f, n, a->y, room, w);
     case 11: return fr_iri_push(o, a->x, n, a->y, room, w);
-    case 13: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
     case 14: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
     case 15: return fr_high_pass_set_finish(o);
     case 16: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
@@ -152,12 +162,18 @@ static fr_real *drawn_reals(size_t count)
 
 static arrays drawn_arrays(int64_t *counts)
 {
-    arrays a = {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, draw(4) ? draw(MOST) : draw(3), 0, 0};
+    arrays a;
+    memset(&a, 0, sizeof a);
+    a.count = draw(4) ? draw(MOST) : draw(3);
     a.capacity = draw(6) ? POINTS : draw(MOST);
     a.x = drawn_reals(a.count);
     a.h = drawn_reals(a.count);
     a.f = drawn_reals(a.count);
     a.s = drawn_reals(a.count);
+    a.p = drawn_reals(a.count);
+    for (size_t i = 0; i < a.count && draw(9); i++)
+        a.p[i] /= (fr_real)20;
+    a.b = malloc(a.capacity + (a.capacity == 0));
     a.y = drawn_reals(a.capacity);
     a.z = drawn_reals(a.capacity);
     a.spans = malloc(a.capacity * sizeof *a.spans + (a.capacity == 0));
@@ -175,6 +191,8 @@ static void release(arrays *a)
     free(a->h);
     free(a->f);
     free(a->s);
+    free(a->p);
+    free(a->b);
     free(a->y);
     free(a->z);
     free(a->n);
