@@ -20,6 +20,7 @@ SETTINGS = {
     "matched_high_pass": {"rate_hz": 16_000.0},
     "iri": {"interval_m": 0.025},
     "screening": ENCODER,
+    "road_prior": {**ENCODER, "interval_m": 0.025},
 }
 
 
