@@ -14,11 +14,11 @@
 enum { MOST = 200, POINTS = 4000 };
 
 typedef struct arrays {
-    fr_real *x, *h, *f, *s, *y, *z;
+    fr_real *x, *h, *f, *s, *p, *y, *z; /* p: shares */
     int64_t *n;
     fr_span *spans;
     double *imu[7], *heights;
-    uint8_t *flags;
+    uint8_t *b;
     size_t count, capacity, written;
 } arrays;
 
@@ -70,12 +70,15 @@ static arrays drawn_arrays(int64_t *counts)
     a.h = drawn_reals(a.count);
     a.f = drawn_reals(a.count);
     a.s = drawn_reals(a.count);
+    a.p = drawn_reals(a.count);
+    for (size_t i = 0; i < a.count && draw(9); i++)
+        a.p[i] /= (fr_real)20;
     a.y = drawn_reals(a.capacity);
     a.z = drawn_reals(a.capacity);
     for (int i = 0; i < 7; i++)
         a.imu[i] = drawn_doubles(a.count);
     a.heights = drawn_doubles(a.capacity);
-    a.flags = malloc(a.capacity + (a.capacity == 0));
+    a.b = malloc(a.capacity + (a.capacity == 0));
     a.spans = malloc(a.capacity * sizeof *a.spans + (a.capacity == 0));
     a.n = malloc(a.count * sizeof *a.n + (a.count == 0));
     for (size_t i = 0; i < a.count; i++)
@@ -98,7 +101,8 @@ static void release(arrays *a)
     for (int i = 0; i < 7; i++)
         free(a->imu[i]);
     free(a->heights);
-    free(a->flags);
+    free(a->b);
+    free(a->p);
 }
 
 #endif

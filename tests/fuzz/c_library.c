@@ -26,6 +26,7 @@ typedef union any_config {
     fr_matched_high_pass_config matched_high_pass;
     fr_iri_config iri;
     fr_screening_config screening;
+    fr_road_prior_config road_prior;
     fr_kalman_filter_config kalman_filter;
     fr_kalman_config kalman;
 } any_config;
@@ -76,6 +77,9 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
         KIND(11, iri, c.interval_m = interval)
         KIND(12, screening, c.rate_hz = 250; c.metres_per_count = count_m;
              c.spread_mps2 = draw(2) * 0.1)
+        KIND(13, road_prior, c.rate_hz = 250; c.metres_per_count = count_m;
+             c.interval_m = interval; c.node_rate_hz = 10.0 + draw(300); c.lag_s = 0.1 + 0.1 * draw(9);
+             c.missing = (int)draw(2); c.back = (int)draw(2); c.fastest_mps = 20.0 + draw(99))
         KIND(14, kalman_filter, set_kalman(&c, count_m))
         KIND(15, kalman, set_kalman(&c.filter, count_m); c.interval_m = 10 * interval; c.lag_s = 2;
              c.gnss_hz = 5; c.fastest_mps = 10)
@@ -122,7 +126,12 @@ static fr_status call(int which, void *o, arrays *a)
     case 9: return fr_local_suppression_push(o, a->x, a->f, n, a->y, room, w);
     case 10: return fr_matched_high_pass_push(o, a->x, a->h, a->f, n, a->y, room, w);
     case 11: return fr_iri_push(o, a->x, n, a->y, room, w);
-    case 13: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
+    case 13: return fr_road_prior_push(o, a->x, a->h, a->n, n, a->y, a->z, a->b, room, w);
+    case 38:
+        return fr_road_prior_push_levelled(o, a->x, a->h, a->n, draw(2) ? a->p : NULL,
+                                           draw(2) ? a->p : NULL, n, a->y, a->z, a->b, room, w);
+    case 39: return fr_road_prior_finish(o, a->y, a->z, a->b, room, w);
+    case 40: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
     case 32: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
     case 33: return fr_high_pass_set_finish(o);
     case 14:
@@ -132,9 +141,9 @@ static fr_status call(int which, void *o, arrays *a)
     case 15:
         if (draw(2))
             return read_gnss(1, o);
-        return fr_kalman_push(o, &imu, a->imu[6], a->n, n, a->y, a->z, a->flags, room, w);
+        return fr_kalman_push(o, &imu, a->imu[6], a->n, n, a->y, a->z, a->b, room, w);
     case 34: return fr_kalman_filter_finish(o, a->heights, room, w);
-    case 35: return fr_kalman_finish(o, a->y, a->z, a->flags, room, w);
+    case 35: return fr_kalman_finish(o, a->y, a->z, a->b, room, w);
     case 36: return fr_kalman_filter_left_out(o, left_out);
     case 37: return fr_kalman_left_out(o, draw(9) ? left_out : NULL);
     case 16: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);

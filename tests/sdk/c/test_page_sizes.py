@@ -22,6 +22,7 @@ SETTINGS = {
     "screening": ENCODER,
     "kalman_filter": {f"travel__{k}": v for k, v in ENCODER.items()},
     "kalman": {"interval_m": 0.025, **{f"filter__travel__{k}": v for k, v in ENCODER.items()}},
+    "road_prior": {**ENCODER, "interval_m": 0.025},
 }
 
 

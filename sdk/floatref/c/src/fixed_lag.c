@@ -76,8 +76,9 @@ void fr_lag_begin_node(const fr_lag_view *view, int32_t kind, double span, const
 static void store_update(const fr_lag_view *view, const double *gain, const double *row,
                          double innovation, double information)
 {
-    fr_lag_section *section = making(view->lag, view->lag->sections);
-    double *update = fr_lag_update_at(view, fr_lag_making(view->lag), section->updates);
+    fr_lag *lag = view->lag;
+    fr_lag_section *section = making(lag, lag->sections);
+    double *update = fr_lag_update_at(view, fr_lag_making(lag), section->updates);
     size_t bytes = (size_t)view->model->states * sizeof *gain;
     update[0] = innovation;
     update[1] = information;
@@ -90,18 +91,19 @@ static void store_update(const fr_lag_view *view, const double *gain, const doub
 void fr_lag_update(const fr_lag_view *view, const double *gain, const double *row,
                    double innovation, double information)
 {
+    fr_lag *lag = view->lag;
     const double *own = view->model->row != NULL ? view->model->row : row;
-    if (view->lag->composing == 0)
+    if (lag->composing == 0)
         store_update(view, gain, own, innovation, information);
-    fr_lag_link_update(&view->lag->link, view->model->states, gain, own, innovation, information);
+    fr_lag_link_update(&lag->link, view->model->states, gain, own, innovation, information);
 }
 
 /* A section ends; the next one begins where there is room for it. Return whether there is not. */
 static int close_section(const fr_lag_view *view, const double *covariance)
 {
     fr_lag *lag = view->lag;
-    size_t square = (size_t)(view->model->states * view->model->states);
-    (void)memcpy(lag->covariance, covariance, square * sizeof *covariance);
+    size_t states = (size_t)view->model->states;
+    (void)memcpy(lag->covariance, covariance, states * states * sizeof *covariance);
     if (lag->held == FR_LAG_SECTIONS)
         return 1;
     lag->held++;
@@ -169,6 +171,6 @@ void fr_lag_end_run(const fr_lag_view *view)
     fr_lag *lag = view->lag;
     if (lag->composing != 0)
         close_stop(view);
-    else if (lag->linked != 0)
+    if (lag->linked != 0)
         fr_lag_link_mark(view, fr_lag_rows(last_node(view)));
 }

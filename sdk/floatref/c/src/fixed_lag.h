@@ -113,7 +113,6 @@ typedef struct fr_lag {
     int32_t kind;   /* of the node in the making */
     int32_t composing;         /* whether the last node stored is a standstill's in the making */
     int32_t linked;            /* whether there were nodes since the last mark */
-    int32_t first_update;      /* of the node in the making, in its section */
     int64_t first_point, points; /* the oldest that is held, and how many there were */
     int64_t first_mark, marks;   /* the same of marks */
     double time_s, distance_m;   /* of the last node */

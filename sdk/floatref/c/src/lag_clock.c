@@ -52,7 +52,9 @@ static void end_section(fr_lag_clock *clock, const fr_lag_pace *pace)
 {
     clock->ends[clock->sections] = clock->points;
     clock->sections++;
-    clock->nodes = clock->updates = clock->stops = 0;
+    clock->nodes = 0;
+    clock->updates = 0;
+    clock->stops = 0;
     if (clock->sections < FR_LAG_SECTIONS)
         return;
     clock->due = pace->delay;
@@ -73,15 +75,19 @@ static int32_t store_node(fr_lag_clock *clock, const fr_lag_pace *pace, int32_t 
     return FR_LAG_ENDS | FR_LAG_MARK;
 }
 
+/* Nodes without a point; more than the patience is all the same. */
+static void count_empty(fr_lag_clock *clock, const fr_lag_pace *pace, int64_t points)
+{
+    int32_t empty = clock->empty <= pace->patience ? clock->empty + 1 : clock->empty;
+    clock->empty = points > clock->points ? 0 : empty;
+    clock->points = points;
+}
+
 int32_t fr_lag_clock_node(fr_lag_clock *clock, const fr_lag_pace *pace, int64_t points,
                           int32_t updates)
 {
     let_pass(clock);
-    if (points > clock->points)
-        clock->empty = 0;
-    else if (clock->empty <= pace->patience)
-        clock->empty++;
-    clock->points = points;
+    count_empty(clock, pace, points);
     if (!may_compose(clock, pace))
         return store_node(clock, pace, updates);
     if (clock->composing == 0) {

@@ -62,12 +62,10 @@ void fr_lag_turn(const double *a, const double *vector, int32_t states, double *
 
 void fr_lag_apply(const double *a, int32_t states, double *vector)
 {
-    double found[FR_LAG_STATES];
-    for (int32_t i = 0; i < states; i++) {
-        found[i] = 0.0;
+    double found[FR_LAG_STATES] = {0};
+    for (int32_t i = 0; i < states; i++)
         for (int32_t c = 0; c < states; c++)
             found[i] += a[i * states + c] * vector[c];
-    }
     (void)memcpy(vector, found, (size_t)states * sizeof *vector);
 }
 
@@ -94,7 +92,8 @@ void fr_lag_enclose(const double *a, int32_t states, double *found)
     for (int32_t i = 0; i < states; i++) {
         for (int32_t c = 0; c < i; c++) {
             double mean = 0.5 * (found[i * states + c] + found[c * states + i]);
-            found[i * states + c] = found[c * states + i] = mean;
+            found[i * states + c] = mean;
+            found[c * states + i] = mean;
         }
     }
 }
@@ -103,7 +102,7 @@ void fr_lag_enclose(const double *a, int32_t states, double *found)
 static void join_marks(const fr_lag_view *view, fr_lag_mark *early, fr_lag_mark *late)
 {
     int32_t states = view->model->states, square = states * states;
-    double product[FR_LAG_STATES * FR_LAG_STATES], *passed = fr_lag_passed(view, late);
+    double product[FR_LAG_STATES * FR_LAG_STATES] = {0}, *passed = fr_lag_passed(view, late);
     const double *first = fr_lag_passed(view, early);
     double *gathered = fr_lag_gathered(view, late);
     const double *earlier = fr_lag_gathered(view, early);
@@ -112,7 +111,8 @@ static void join_marks(const fr_lag_view *view, fr_lag_mark *early, fr_lag_mark 
     for (int32_t i = 0; i < square; i++)
         gathered[i] += earlier[i];
     for (int32_t i = 0; i < states; i++)
-        fr_lag_turn(first, passed + i * states, states, product + i * states);
+        fr_lag_turn(first, &passed[(size_t)i * (size_t)states], states,
+                    &product[(size_t)i * (size_t)states]);
     (void)memcpy(passed, product, (size_t)square * sizeof *passed);
 }
 

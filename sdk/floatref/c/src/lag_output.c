@@ -203,7 +203,7 @@ void fr_lag_release(const fr_lag_view *view, fr_lag_output *output)
     fr_lag *lag = view->lag;
     int32_t second = (lag->oldest + 1) % FR_LAG_SECTIONS;
     int64_t begin = lag->sections[lag->oldest].first_mark, end = lag->sections[second].first_mark;
-    double lambda[FR_LAG_STATES] = {0.0}, rows[2 * FR_LAG_STATES];
+    double lambda[FR_LAG_STATES] = {0}, rows[2 * FR_LAG_STATES];
     emission out;
     fr_lag_settle(view);
     fr_lag_sigmas(view, begin, end, 0);
@@ -222,7 +222,7 @@ void fr_lag_finish(const fr_lag_view *view, const double *lambda, fr_lag_output 
 {
     fr_lag *lag = view->lag;
     int64_t begin = lag->sections[lag->oldest].first_mark;
-    double behind[FR_LAG_STATES] = {0.0};
+    double behind[FR_LAG_STATES] = {0};
     emission out;
     fr_lag_end_run(view);
     if (lambda != NULL)

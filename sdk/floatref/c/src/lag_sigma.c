@@ -22,7 +22,7 @@
 void fr_lag_settle(const fr_lag_view *view)
 {
     int32_t states = view->model->states, square = states * states;
-    double information[FR_LAG_STATES * FR_LAG_STATES] = {0.0};
+    double information[FR_LAG_STATES * FR_LAG_STATES] = {0};
     for (int64_t k = view->lag->marks - 1; k >= view->lag->first_mark; k--) {
         fr_lag_mark *mark = fr_lag_mark_at(view, k);
         const double *column = fr_lag_column(mark), *gathered = fr_lag_gathered(view, mark);
@@ -130,7 +130,7 @@ static int32_t see_last(const fr_lag_view *view, const double *m, double *z, dou
         return states;
     }
     for (int32_t i = 0; i < rows; i++) {
-        fr_lag_turn(view->lag->covariance, seen + i * states, states, half);
+        fr_lag_turn(view->lag->covariance, &seen[(size_t)i * (size_t)states], states, half);
         z[i] = 0.0;
         for (int32_t k = 0; k < states; k++)
             z[i] += seen[i * states + k] * m[k];
@@ -196,12 +196,14 @@ static void look_ahead(const fr_lag_view *view, int64_t number)
 static double doubt_about(const fr_lag_view *view, int64_t number, int64_t end)
 {
     double within_m = 0.5 * view->lag->shape.wavelength_m, place_m = distance_of(view, number);
-    double most = fr_lag_mark_at(view, number)->change;
-    for (int64_t k = number - 1;
-         k >= view->lag->first_mark && place_m - distance_of(view, k) <= within_m; k--)
+    double most = 0.0;
+    int64_t k = number;
+    while (k > view->lag->first_mark && place_m - distance_of(view, k - 1) <= within_m)
+        k--;
+    while (k < end && distance_of(view, k) - place_m <= within_m) {
         most = fmax(most, fr_lag_mark_at(view, k)->change);
-    for (int64_t k = number + 1; k < end && distance_of(view, k) - place_m <= within_m; k++)
-        most = fmax(most, fr_lag_mark_at(view, k)->change);
+        k++;
+    }
     return most;
 }
 

@@ -102,11 +102,10 @@ fr_status fr_road_prior_finish(fr_road_prior *road, fr_real *elevation, fr_real 
 {
     fr_lag_output output = {elevation, sigma, flags, 0u};
     fr_status status = fr_ready(road, FR_ROAD_MAGIC);
-    size_t needed = 0;
-    if (status == FR_OK)
-        needed = (size_t)(road->progress.reached - road->progress.clock.released);
-    if (status == FR_OK)
-        status = check_output(needed, &output, capacity, written);
+    if (status != FR_OK)
+        return status;
+    size_t needed = (size_t)(road->progress.reached - road->progress.clock.released);
+    status = check_output(needed, &output, capacity, written);
     if (status != FR_OK)
         return status;
     fr_road_end(road, &output);

@@ -17,8 +17,10 @@ enum { RENEWED = 0, LEAN_ONCE = 1, TILT_ONCE = 2, LEAN_TWICE = 3, TILT_TWICE = 4
 /* lambda <- F' lambda. */
 static void back_road(const double *own, double span, double *lambda)
 {
-    if (own[RENEWED] > 0.0)
-        lambda[ROAD_LEAN] = lambda[ROAD_TILT] = 0.0;
+    if (own[RENEWED] > 0.0) {
+        lambda[ROAD_LEAN] = 0.0;
+        lambda[ROAD_TILT] = 0.0;
+    }
     double by_r = lambda[ROAD_R], by_v = lambda[ROAD_V];
     lambda[ROAD_V] += span * by_r;
     lambda[ROAD_BIAS] -= span * (by_v + 0.5 * span * by_r);
@@ -29,7 +31,7 @@ static void back_road(const double *own, double span, double *lambda)
 }
 
 /* c <- F c of a vector whose elements lie `apart` numbers apart. */
-static void carry(const double *own, double span, double *c, int32_t apart)
+static void carry(const double *own, double span, double *c, size_t apart)
 {
     double *r = c, *v = c + ROAD_V * apart, *z = c + ROAD_Z * apart, *s = c + ROAD_SLOPE * apart;
     double bias = c[ROAD_BIAS * apart], lean = c[ROAD_LEAN * apart], tilt = c[ROAD_TILT * apart];
@@ -44,8 +46,10 @@ static void forth_road(const double *own, double span, double *psi)
 {
     for (int32_t c = 0; c < FR_ROAD_STATES; c++) {
         carry(own, span, psi + c, FR_ROAD_STATES);
-        if (own[RENEWED] > 0.0)
-            psi[ROAD_LEAN * FR_ROAD_STATES + c] = psi[ROAD_TILT * FR_ROAD_STATES + c] = 0.0;
+        if (own[RENEWED] > 0.0) {
+            psi[ROAD_LEAN * FR_ROAD_STATES + c] = 0.0;
+            psi[ROAD_TILT * FR_ROAD_STATES + c] = 0.0;
+        }
     }
 }
 
@@ -139,8 +143,10 @@ static void predict_covariance(const fr_road_model *model, fr_road_filter *filte
 static void renew(fr_road_filter *filter, int state, double expected, double variance)
 {
     filter->x[state] = expected;
-    for (int j = 0; j < FR_ROAD_STATES; j++)
-        filter->p[state][j] = filter->p[j][state] = 0.0;
+    for (int j = 0; j < FR_ROAD_STATES; j++) {
+        filter->p[state][j] = 0.0;
+        filter->p[j][state] = 0.0;
+    }
     filter->p[state][state] = variance;
 }
 

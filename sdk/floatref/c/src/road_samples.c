@@ -91,8 +91,10 @@ static void make_node(fr_road_prior *road, const fr_road_input *input, size_t i)
     at->anew = begins_anew(road, at->place_m);
     at->kind = clock_node(&road->progress, road);
     fr_excitation_add(&road->excitation, fr_road_room(road), at->place_m);
-    motion->height = motion->velocity = 0.0;
-    motion->steps = motion->lost = 0;
+    motion->height = 0.0;
+    motion->velocity = 0.0;
+    motion->steps = 0;
+    motion->lost = 0;
     road->nodes++;
 }
 

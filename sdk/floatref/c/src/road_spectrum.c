@@ -78,9 +78,9 @@ static void learn_length(fr_road_spectrum *spectrum, int which)
     /* In a brake the tilt that is not known yet looks like road. */
     if (lasted > MOST_S || (which == LONG && fabs(uneven) > STEADY * lasted))
         return;
-    bend = points[0].elevation_m - 2.0 * points[lag].elevation_m + points[2 * lag].elevation_m;
+    bend = points[0].elevation_m - 2.0 * points[lag].elevation_m + points[2u * (size_t)lag].elevation_m;
     /* What had been turned before the first of the three is no error of theirs. */
-    bend += uneven * points[2 * lag].turned;
+    bend += uneven * points[2u * (size_t)lag].turned;
     learn(&spectrum->squares[which], bend, spectrum->share);
 }
 
@@ -116,7 +116,7 @@ static void learn_texture(fr_road_spectrum *spectrum, double elevation_m, double
     if (fr_missing_number(total))
         return;
     for (int k = 0; k < LENGTHS; k++)
-        learn(&spectrum->texture[k], latest[0] - 2.0 * latest[k + 1] + latest[2 * (k + 1)],
+        learn(&spectrum->texture[k], latest[0] - 2.0 * latest[k + 1] + latest[2 * (size_t)(k + 1)],
               share < 1.0 ? share : 1.0);
 }
 

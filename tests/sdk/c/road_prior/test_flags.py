@@ -83,7 +83,7 @@ def test_what_a_lag_was_too_short_for_is_flagged_and_the_rest_stays(drives, smoo
 
 def test_with_a_tolerance_of_zero_only_the_end_of_the_run_is_settled(drives, smoothed):
     drive = stopping(drives)
-    made = smoothed(drive, INTERVAL_M, lag_s=4.0, tolerance_m=0.0)
+    made = smoothed(drive, INTERVAL_M, lag_s=4.0, tolerance_m=0.0, wavelength_m=20.0)
     unsettled = (made.flags & UNSETTLED) > 0
     last = at_sample(drive, drive.a.size - 1 - 3 * 2.0 * RATE)
     assert unsettled[: last - 40].all()
