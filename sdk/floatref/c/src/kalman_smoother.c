@@ -28,6 +28,7 @@ fr_kalman_config fr_kalman_inertial_defaults(void)
 {
     fr_kalman_config config = fr_kalman_defaults();
     config.filter = fr_kalman_filter_inertial_defaults();
+    config.lag_s = 180.0;
     return config;
 }
 

@@ -191,11 +191,11 @@ class Path:
 def path_of(double):
     """Return what makes an object for a drive, a plan and noise, with further settings."""
 
-    def make_path(kind, drive, plan=None, noise=None, **settings):
+    def make_path(kind, drive, plan=None, noise=None, library=double, **settings):
         found = settings_of(drive, plan or Plan(), noise or Noise())
         if kind == "kalman":
             found = {f"filter__{name}": value for name, value in found.items()}
-        return Path(double.make(kind, **{**found, **settings}))
+        return Path(library.make(kind, **{**found, **settings}))
 
     return make_path
 
@@ -228,7 +228,8 @@ def filtered():
 def smooth_by_c(path, drive, edges=None, late=0):
     """Return elevation, 1-sigma and flags of all points."""
     room = 2_000_000
-    out = np.empty(room), np.empty(room), np.empty(room, np.uint8)
+    real = path.library.dtype
+    out = np.empty(room, real), np.empty(room, real), np.empty(room, np.uint8)
     kinds, found, k = ("fr_real *", "fr_real *", "uint8_t *"), [], 0
     edges = [*range(0, len(drive), 2000), len(drive)] if edges is None else edges
     for begin, end in pairwise(edges):
