@@ -10,20 +10,6 @@
 
 enum { OWN_RENEWED = 0, OWN_SHIFT = 1, OWN_TRANSITION = 2 };
 
-/* What later readings can show of the state at last: never the height but with GNSS's drift; at a
- * stop, the last row, also how far the height is from where the stop began. */
-static const double SEEN[] = {
-    1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, /* height and drift */
-    0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, /* velocity */
-    0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, /* pitch */
-    0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, /* roll */
-    0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, /* bias of the acceleration */
-    0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, /* of the roll rate */
-    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, /* of the pitch rate */
-    0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, /* lean */
-    1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, /* height and offset */
-};
-
 void fr_kalman_own(const fr_kalman_node *node, double *own)
 {
     own[OWN_RENEWED] = (double)node->renewed;
@@ -31,11 +17,9 @@ void fr_kalman_own(const fr_kalman_node *node, double *own)
     (void)memcpy(own + OWN_TRANSITION, &node->transition, sizeof node->transition);
 }
 
-static fr_kalman_transition transition_of(const double *own)
+static void take_transition(const double *own, fr_kalman_transition *transition)
 {
-    fr_kalman_transition t;
-    (void)memcpy(&t, own + OWN_TRANSITION, sizeof t);
-    return t;
+    (void)memcpy(transition, own + OWN_TRANSITION, sizeof *transition);
 }
 
 static int renews(const double *own, int32_t state)
@@ -47,11 +31,12 @@ static int renews(const double *own, int32_t state)
 static void kalman_back(const double *own, double span, double *lambda)
 {
     static const int32_t column[] = {FR_K_PITCH, FR_K_ROLL, FR_K_ROLL_BIAS, FR_K_PITCH_BIAS};
-    fr_kalman_transition t = transition_of(own);
     double by_r, by_v, by_pitch = lambda[FR_K_PITCH], by_roll = lambda[FR_K_ROLL];
-    if (renews(own, FR_K_LEAN)) {
+    fr_kalman_transition t;
+    take_transition(own, &t);
+    if (renews(own, FR_K_LEAN))
         lambda[FR_K_LEAN] = own[OWN_SHIFT] * lambda[FR_K_BIAS];
-    } else if (renews(own, FR_K_OFFSET)) {
+    if (renews(own, FR_K_OFFSET)) {
         lambda[FR_K_HEIGHT] -= lambda[FR_K_OFFSET];
         lambda[FR_K_OFFSET] = 0.0;
     }
@@ -60,7 +45,8 @@ static void kalman_back(const double *own, double span, double *lambda)
     lambda[FR_K_VELOCITY] += span * by_r;
     lambda[FR_K_BIAS] += span * by_v + 0.5 * span * span * by_r;
     lambda[FR_K_LEAN] += by_r * t.height_lean + by_v * t.velocity_lean;
-    lambda[FR_K_PITCH] = lambda[FR_K_ROLL] = 0.0;
+    lambda[FR_K_PITCH] = 0.0;
+    lambda[FR_K_ROLL] = 0.0;
     for (int j = 0; j < FR_BY; j++)
         lambda[column[j]] += by_r * t.height[j] + by_v * t.velocity[j] + by_pitch * t.pitch[j] +
                              by_roll * t.roll[j];
@@ -76,16 +62,17 @@ static void kalman_forth_column(const double *own, const fr_kalman_transition *t
     if (renews(own, FR_K_LEAN)) {
         c[FR_K_BIAS] += own[OWN_SHIFT] * c[FR_K_LEAN];
         c[FR_K_LEAN] = 0.0;
-    } else if (renews(own, FR_K_OFFSET)) {
-        c[FR_K_OFFSET] = -c[FR_K_HEIGHT];
     }
+    if (renews(own, FR_K_OFFSET))
+        c[FR_K_OFFSET] = -c[FR_K_HEIGHT];
 }
 
 /* Psi <- F Psi, F with the states that begin anew. */
 static void kalman_forth(const double *own, double span, double *psi)
 {
-    fr_kalman_transition t = transition_of(own);
+    fr_kalman_transition t;
     double c[FR_K_STATES];
+    take_transition(own, &t);
     for (int k = 0; k < FR_K_STATES; k++) {
         for (int i = 0; i < FR_K_STATES; i++)
             c[i] = psi[i * FR_K_STATES + k];
@@ -97,8 +84,21 @@ static void kalman_forth(const double *own, double span, double *psi)
 
 fr_lag_model fr_kalman_lag_model(void)
 {
-    fr_lag_model model = {FR_K_STATES, FR_K_OWN, NULL, kalman_back, kalman_forth, SEEN,
-                          (int32_t)(sizeof SEEN / sizeof *SEEN / FR_K_STATES)};
+    /* What later readings can show of the state at last: never the height but with GNSS's drift; at
+     * a stop, the last row, also how far the height is from where the stop began. */
+    static const double seen[] = {
+        1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, /* height and drift */
+        0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, /* velocity */
+        0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, /* pitch */
+        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, /* roll */
+        0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, /* bias of the acceleration */
+        0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, /* of the roll rate */
+        0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, /* of the pitch rate */
+        0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, /* lean */
+        1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, /* height and offset */
+    };
+    fr_lag_model model = {FR_K_STATES, FR_K_OWN, NULL, kalman_back, kalman_forth, seen,
+                          (int32_t)(sizeof seen / sizeof *seen / FR_K_STATES)};
     return model;
 }
 

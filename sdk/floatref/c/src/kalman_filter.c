@@ -64,8 +64,10 @@ static void run_filter(fr_kalman_filter *filter, const fr_imu *imu, const double
     size_t made = 0;
     for (size_t i = 0; i < count; i++) {
         fr_kalman_sample sample = fr_kalman_sample_of(engine, imu, height, i);
-        if (fr_kalman_engine_take(engine, room_of(filter), &sample, counts[i], &step, &node) != 0)
-            heights[made++] = step.reference_height;
+        if (fr_kalman_engine_take(engine, room_of(filter), &sample, counts[i], &step, &node) != 0) {
+            heights[made] = step.reference_height;
+            made++;
+        }
     }
 }
 
@@ -102,8 +104,10 @@ fr_status fr_kalman_filter_finish(fr_kalman_filter *filter, double *reference_he
                              written);
     if (status != FR_OK)
         return status;
-    while (fr_kalman_engine_drain(&filter->engine, room_of(filter), &step, &node) != 0)
-        reference_height[made++] = step.reference_height;
+    while (fr_kalman_engine_drain(&filter->engine, room_of(filter), &step, &node) != 0) {
+        reference_height[made] = step.reference_height;
+        made++;
+    }
     filter->head.state = FR_STATE_ENDED;
     *written = made;
     return FR_OK;

@@ -27,8 +27,9 @@ static int64_t count_ahead(const foresight *f, int64_t at)
 
 static double height_ahead(const foresight *f, int64_t at)
 {
+    void *room = f->room;
     if (at < f->engine->pushed)
-        return fr_kalman_engine_height(f->engine, f->room, at);
+        return fr_kalman_engine_height(f->engine, room, at);
     return f->push->height[at - f->engine->pushed];
 }
 

@@ -7,9 +7,6 @@
 
 #include "kalman.h"
 
-/* 1-sigma of the first state: height, velocity, pitch, roll, and biases, in SI units. */
-static const double START_SIGMA[] = {1.0, 1.0, 0.1, 0.1, 0.1, 0.01, 0.01};
-
 /* The mean inputs of a step, and what pitch and roll make of them. */
 typedef struct body_turn {
     double ax, q1, q2, q3;
@@ -20,27 +17,30 @@ typedef struct body_turn {
 
 void fr_kalman_begin(fr_kalman_state *state, double height, double lean_rad)
 {
-    const int known = (int)(sizeof START_SIGMA / sizeof *START_SIGMA);
+    /* 1-sigma of the first state: height, velocity, pitch, roll, and biases, in SI units. */
+    static const double sigma[] = {1.0, 1.0, 0.1, 0.1, 0.1, 0.01, 0.01};
+    const int known = (int)(sizeof sigma / sizeof *sigma);
     (void)memset(state, 0, sizeof *state);
     state->x[FR_K_HEIGHT] = height;
     state->latest = -1;
     state->lost_until = -1;
     for (int i = 0; i < known; i++)
-        state->p[i][i] = START_SIGMA[i] * START_SIGMA[i];
+        state->p[i][i] = sigma[i] * sigma[i];
     state->p[FR_K_LEAN][FR_K_LEAN] = lean_rad * lean_rad;
 }
 
 void fr_kalman_begin_sub_block(fr_kalman_state *state)
 {
-    const fr_kalman_transition still = {{0.0}, {0.0}, {0.0}, {0.0}, 0.0, 0.0};
-    state->transition = still;
+    (void)memset(&state->transition, 0, sizeof state->transition);
     state->transition.pitch[FR_BY_PITCH] = 1.0;
     state->transition.roll[FR_BY_ROLL] = 1.0;
     state->sin_pitch = sin(state->x[FR_K_PITCH]);
     state->cos_pitch = cos(state->x[FR_K_PITCH]);
     state->sin_roll = sin(state->x[FR_K_ROLL]);
     state->cos_roll = cos(state->x[FR_K_ROLL]);
-    state->steps = state->by_pitch = state->by_roll = 0.0;
+    state->steps = 0.0;
+    state->by_pitch = 0.0;
+    state->by_roll = 0.0;
 }
 
 int fr_kalman_ends_sub_block(const fr_kalman_model *model, const fr_kalman_state *state)

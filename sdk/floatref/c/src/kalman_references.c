@@ -49,10 +49,13 @@ void fr_kalman_references_set(fr_kalman_references *r, const fr_kalman_model *mo
 
 static void observe_nothing(fr_kalman_observation *out)
 {
-    for (int i = 0; i < FR_K_KINDS; i++)
-        out->y[i] = out->variance[i] = (double)NAN;
+    for (int i = 0; i < FR_K_KINDS; i++) {
+        out->y[i] = (double)NAN;
+        out->variance[i] = (double)NAN;
+    }
     out->drifted = 0.0;
-    out->mark = out->reserved = 0;
+    out->mark = 0;
+    out->reserved = 0;
 }
 
 /* The errors of a reading that comes soon behind another count for more. */
@@ -82,7 +85,8 @@ static void observe_reading(const fr_kalman_references *r, const fr_kalman_readi
         out->variance[i] = (own == own ? own : r->reading[i]) * crowded;
     }
     if (r->attitude == 0) {
-        out->y[FR_K_PITCH] = out->y[FR_K_ROLL] = 0.0;
+        out->y[FR_K_PITCH] = 0.0;
+        out->y[FR_K_ROLL] = 0.0;
         out->variance[FR_K_PITCH] = r->usual_pitch * crowded;
         out->variance[FR_K_ROLL] = r->usual_roll * crowded;
     }
@@ -98,7 +102,8 @@ static void take_reading(fr_kalman_references *r, const fr_kalman_reading *readi
         r->datum = reading->y[FR_K_HEIGHT] - r->arm_up - r->start;
     r->has_datum = 1;
     observe_reading(r, reading, out);
-    r->before = r->latest = reading->at;
+    r->before = reading->at;
+    r->latest = reading->at;
     if (heights != 0) {
         r->observed = reading->at;
         r->holds = 0;
@@ -139,7 +144,8 @@ static int is_quiet(fr_kalman_references *r, int64_t at, double distance_m)
         r->travelled[i] = r->travelled[i + 1];
     r->travelled[FR_K_SECONDS] = distance_m;
     r->seconds += r->seconds <= FR_K_SECONDS ? 1 : 0;
-    slowest = fastest = r->travelled[1] - r->travelled[0];
+    slowest = r->travelled[1] - r->travelled[0];
+    fastest = slowest;
     for (int i = 1; i < FR_K_SECONDS; i++) {
         double speed = r->travelled[i + 1] - r->travelled[i];
         slowest = speed < slowest ? speed : slowest;

@@ -77,7 +77,9 @@ fr_kalman_filter_config fr_kalman_filter_defaults(void)
     config.noise = usual;
     config.gravity_mps2 = 9.80665;
     config.reflection_speed_mps = 0.16 / 3.6;
-    config.gnss = config.attitude = config.reflects = 1;
+    config.gnss = 1;
+    config.attitude = 1;
+    config.reflects = 1;
     config.readings = 64;
     return config;
 }
@@ -85,7 +87,8 @@ fr_kalman_filter_config fr_kalman_filter_defaults(void)
 fr_kalman_filter_config fr_kalman_filter_inertial_defaults(void)
 {
     fr_kalman_filter_config config = fr_kalman_filter_defaults();
-    config.gnss = config.attitude = 0;
+    config.gnss = 0;
+    config.attitude = 0;
     config.noise.acceleration_walk = 3e-4;
     config.noise.pitch_rate_walk = config.noise.roll_rate_walk;
     config.noise.constant_pitch = 0.1;

@@ -158,7 +158,8 @@ static fr_status foresee(const fr_kalman_view *view, const fr_kalman_push_of *pu
 {
     const fr_kalman *kalman = view->kalman;
     size_t ready = fr_kalman_engine_ready(&kalman->engine, push->count);
-    return fr_kalman_foresee(&kalman->engine, view->room, &kalman->points, &kalman->clock,
+    void *room = view->room;
+    return fr_kalman_foresee(&kalman->engine, room, &kalman->points, &kalman->clock,
                              &kalman->lag.shape.pace, push, ready, given_out);
 }
 
@@ -177,11 +178,12 @@ static void run_push(const fr_kalman_view *view, const fr_imu *imu, const fr_kal
                      fr_lag_output *output)
 {
     fr_kalman_engine *engine = &view->kalman->engine;
+    void *room = view->room;
     fr_kalman_step step;
     fr_kalman_node node;
     for (size_t i = 0; i < push->count; i++) {
         fr_kalman_sample sample = fr_kalman_sample_of(engine, imu, push->height, i);
-        if (fr_kalman_engine_take(engine, view->room, &sample, push->counts[i], &step, &node) != 0)
+        if (fr_kalman_engine_take(engine, room, &sample, push->counts[i], &step, &node) != 0)
             fr_kalman_hand_over(view, &step, &node, output);
     }
 }

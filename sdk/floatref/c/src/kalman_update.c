@@ -15,9 +15,6 @@
 /* Time constant of the running mean of the longitudinal specific force. */
 #define RUNNING_S 1.0
 
-/* Innovations of GNSS readings up to here are taken, however small the filter expects them. */
-static const double FLOORS[] = {0.2, 0.5, 0.05235987755982989, 0.05235987755982989};
-
 /* What the readings of one sample are compared with. */
 typedef struct expected_readings {
     double h[FR_K_KINDS][FR_K_STATES], predicted[FR_K_KINDS], prior[FR_K_STATES];
@@ -50,8 +47,10 @@ static double forget(double variance, fr_kalman_state *s)
     for (int j = 0; j < FR_K_STATES; j++)
         s->p[j][FR_K_BIAS] += shift * s->p[j][FR_K_LEAN];
     s->x[FR_K_LEAN] = 0.0;
-    for (int j = 0; j < FR_K_STATES; j++)
-        s->p[FR_K_LEAN][j] = s->p[j][FR_K_LEAN] = 0.0;
+    for (int j = 0; j < FR_K_STATES; j++) {
+        s->p[FR_K_LEAN][j] = 0.0;
+        s->p[j][FR_K_LEAN] = 0.0;
+    }
     s->p[FR_K_LEAN][FR_K_LEAN] = variance;
     return shift;
 }
@@ -78,7 +77,8 @@ static void find_base(int32_t mark, fr_kalman_state *s, expected_readings *e)
     e->base = 0.0;
     if ((mark & FR_K_REFLECTED) != 0) {
         e->predicted[FR_K_HEIGHT] = s->x[FR_K_HEIGHT] + s->x[FR_K_OFFSET];
-        e->h[FR_K_HEIGHT][FR_K_PITCH] = e->h[FR_K_HEIGHT][FR_K_ROLL] = 0.0;
+        e->h[FR_K_HEIGHT][FR_K_PITCH] = 0.0;
+        e->h[FR_K_HEIGHT][FR_K_ROLL] = 0.0;
         e->h[FR_K_HEIGHT][FR_K_OFFSET] = 1.0;
         e->base = s->origin;
     } else if ((mark & FR_K_RELATIVE) != 0) {
@@ -100,9 +100,11 @@ static void count_left_out(fr_kalman_state *s, int kind)
 static int is_plausible(fr_kalman_state *s, int kind, double innovation, double variance,
                         const double *h)
 {
+    /* Innovations up to here are taken, however small the filter expects them. */
+    static const double floors[] = {0.2, 0.5, 0.05235987755982989, 0.05235987755982989};
     double projected[FR_K_STATES];
     double spread = project(s->p, h, projected) + variance;
-    if (!(innovation * innovation > GATE * spread) || fabs(innovation) <= FLOORS[kind]) {
+    if (!(innovation * innovation > GATE * spread) || fabs(innovation) <= floors[kind]) {
         s->in_a_row = kind == FR_K_HEIGHT ? 0 : s->in_a_row;
         return 1;
     }
@@ -165,6 +167,7 @@ void fr_kalman_observe(const fr_kalman_model *model, fr_kalman_state *state,
                        const fr_kalman_observation *observed, fr_kalman_node *node)
 {
     expected_readings e;
+    (void)memset(&e, 0, sizeof e);
     fr_kalman_linearize(model, state, e.h, e.predicted);
     find_base(observed->mark, state, &e);
     state->p[FR_K_DRIFT][FR_K_DRIFT] += observed->drifted;
@@ -190,8 +193,13 @@ static void keep_transition(const fr_kalman_model *model, fr_kalman_state *s, fr
     node->at = s->latest;
     node->transition = s->transition;
     node->span = span;
-    node->shift = node->rise = node->climb = 0.0;
-    node->renewed = node->updated = node->observed = node->reserved = 0;
+    node->shift = 0.0;
+    node->rise = 0.0;
+    node->climb = 0.0;
+    node->renewed = 0;
+    node->updated = 0;
+    node->observed = 0;
+    node->reserved = 0;
     if (span > 0.0) {
         double mean = s->transition.velocity_lean / span + s->level, share = span / RUNNING_S;
         s->running += (mean - s->running) * (share < 1.0 ? share : 1.0);
@@ -205,10 +213,9 @@ static void observe_at(const fr_kalman_model *model, fr_kalman_state *s,
     if (forgets && !renews)
         node->shift = forget(model->lean, s);
     fr_kalman_observe(model, s, observed, node);
+    node->renewed = forgets ? FR_K_LEAN : 0;
     if (renews)
         node->renewed = FR_K_OFFSET;
-    else if (forgets)
-        node->renewed = FR_K_LEAN;
 }
 
 void fr_kalman_make_node(const fr_kalman_model *model, fr_kalman_state *state,
