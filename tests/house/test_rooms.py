@@ -25,6 +25,7 @@ SAME_ROLE = {
 
 ROOMS_OF_TESTS = {
     "sdk/estimators/kalman/plain": "a second filter, written plainly, with fixtures of its own",
+    "sdk/c/road_prior": "the road prior of the C library, which is one package in Python",
 }
 """Folders of tests that mirror no room."""
 
