@@ -8,7 +8,8 @@ from numpy.typing import DTypeLike, NDArray
 
 from floatref_reference.chapter_5.section_5_3 import capture, trigger
 from floatref_reference.road_prior.encoder import inputs
-from floatref_reference.road_prior.fixed_lag import Sections, fixed_lag
+from floatref_reference.road_prior.fixed_lag import fixed_lag
+from floatref_reference.road_prior.lag_sections import Sections
 from floatref_reference.road_prior.symbols import Constants, recorded
 
 Array = NDArray[np.float64]

@@ -103,7 +103,9 @@ def main() -> None:
     """Print a table."""
     with tempfile.TemporaryDirectory(prefix="bench-road-") as folder:
         library = Library(Path(folder), ["-O2", "-ffp-contract=off"])
-        print("| drive | lag, s | nodes/s | MB | ns per sample | flagged, % | all, mm | others, mm |")
+        print(
+            "| drive | lag, s | nodes/s | MB | ns per sample | flagged, % | all, mm | others, mm |"
+        )
         print("|---|---:|---:|---:|---:|---:|---:|---:|")
         for name, scenario in DRIVES.items():
             given = signals(scenario)

@@ -7,7 +7,7 @@ is moved by (D + (D' + D/L) ξ) e^{-ξ/L} at the travel ξ behind the joint. It 
 before ended, with its slope, and the step goes over far more travel than any wave that the
 high-pass filter of a profile lets through.
 
-A standstill takes no room, and so none of the lag: its nodes, which bring no point, count as one.
+A standstill takes no room, and no part of the lag: its nodes, which bring no point, count as one.
 
 The smoother itself is in the form of Bryson and Frazier, which inverts no covariance, so that it
 can be run in extended precision.
@@ -21,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 
 from floatref_reference.road_prior import model
+from floatref_reference.road_prior.lag_sections import Sections
 from floatref_reference.road_prior.symbols import Constants, Matrix, Recorded, Vector
 
 L_M = 500.0
@@ -109,49 +110,6 @@ def backward(steps: Sequence[Step], H: Vector) -> Matrix:
             adjoint = adjoint - H * (step.K @ adjoint) - H * (step.nu * step.information)
         adjoint = step.F.T @ adjoint
     return np.array(found[::-1])
-
-
-class Sections(NamedTuple):
-    """How a run is divided.
-
-    Equation:
-        See `divide`
-
-    Attributes:
-        ends: nodes at which sections end.
-        composed: of each node whether it counts as one with the nodes before it.
-    """
-
-    ends: list[int]
-    composed: list[bool]
-
-
-def divide(points: Sequence[int], length: int, patience: int) -> Sections:
-    """Divide a run into sections.
-
-    Equation:
-        A section ends with its node number ``length``. Where more than ``patience`` nodes in a row
-        have brought no point, these further ones count as one.
-
-    Args:
-        points: points reached before each node.
-        length: nodes of a section.
-        patience: see above.
-
-    Returns:
-        The sections.
-    """
-    found, count, empty, composed = Sections([], []), 0, 0, False
-    for k, reached in enumerate(points):
-        empty = 0 if k > 0 and reached > points[k - 1] else empty + 1
-        before, composed = composed, empty > patience and (composed or count + 2 <= length)
-        found.composed.append(composed)
-        if not (before and composed):
-            count += 1
-        if count == length and not composed:
-            found.ends.append(k)
-            count = 0
-    return found
 
 
 def speed(run: Recorded, composed: Sequence[bool], k: int, first: int) -> float:

@@ -6,6 +6,7 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from floatref_reference.road_prior import fixed_lag as lag
+from floatref_reference.road_prior.lag_sections import Sections
 from floatref_reference.road_prior.least_squares import least_squares
 from floatref_reference.road_prior.smoother import smooth
 from floatref_reference.road_prior.symbols import Constants
@@ -18,7 +19,7 @@ SEEDS = st.integers(0, 9999)
 
 
 def whole(count):
-    return lag.Sections([], [False] * count)
+    return Sections([], [False] * count)
 
 
 @pytest.mark.cites("(6.17)")
@@ -37,7 +38,7 @@ def test_without_sections_it_is_the_smoother_and_least_squares(drawn, seed, shar
 def test_the_first_part_is_what_the_run_up_to_the_third_end_says(drawn, seed):
     run = drawn(seed, N=60)
     ends = [14, 29, 44]
-    found = lag.fixed_lag(run, C, lag.Sections(ends, [False] * 60))
+    found = lag.fixed_lag(run, C, Sections(ends, [False] * 60))
     signals = {n: getattr(run, n)[..., :45] for n in ("t", "distance", "a_m", "h", "a_x")}
     begun = run._replace(u=run.u[:, :45], **signals)
     expected = smooth(begun, C).r[0]
@@ -48,11 +49,10 @@ def test_the_first_part_is_what_the_run_up_to_the_third_end_says(drawn, seed):
 @laws
 @given(seed=SEEDS)
 def test_a_part_begins_where_the_one_before_has_ended(drawn, seed):
-    """The correction at the joint is the same from either side: both parts, smoothed, differ there
-    by what fades away."""
+    """Next to the joint, both parts differ from the smoothed run by the same, which fades away."""
     run = drawn(seed, N=60)
     ends = [14, 29, 44]
-    found = lag.fixed_lag(run, C, lag.Sections(ends, [False] * 60))
+    found = lag.fixed_lag(run, C, Sections(ends, [False] * 60))
     last = smooth(run, C).r[0]
     gap = found[14] - last[14]
     assert found[15] - last[15] == pytest.approx(gap, abs=0.3 * abs(gap) + 1e-6)
@@ -65,18 +65,6 @@ def test_what_fades_begins_with_gap_and_slope_and_is_gone_after_kilometres(gap, 
     found = (lag.fading(gap, slope, step) - gap) / step
     assert found == pytest.approx(slope, abs=1e-9 + 1e-6 * abs(gap))
     assert abs(lag.fading(gap, slope, 2e4)) < 1e-6
-
-
-def test_sections_have_so_many_nodes_and_a_standstill_is_one():
-    points = [*range(12), *[12] * 20, *range(13, 33)]
-    found = lag.divide(points, 8, 4)
-    assert found.ends[0] == 7
-    first = found.composed.index(True)
-    # The node that brings the twelfth point is followed by four without, and then by the record.
-    assert first == 12 + 4 + 1
-    assert found.composed[first:32] == [True] * (32 - first)
-    nodes = [k for k, one in enumerate(found.composed) if not one or k == first]
-    assert [nodes.index(end) % 8 for end in found.ends] == [7] * len(found.ends)
 
 
 def test_in_single_precision_a_reading_has_a_variance_below_zero(drawn):

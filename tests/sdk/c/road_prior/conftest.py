@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ UNTIL_IT_ENDS = 1000.0
 
 @dataclass(frozen=True, eq=False)
 class Drive:
-    """What sensors read at ``rate``, shapes (n,); accelerations without 1 g, counts of `COUNT_M`."""
+    """What sensors read at ``rate``, shapes (n,); acceleration without 1 g, counts of `COUNT_M`."""
 
     rate: float
     a: np.ndarray
@@ -95,7 +96,9 @@ class Road:
     def call(self, name, *inputs, room=100_000):
         """Return the status and the points; ``inputs`` may be None for what is left out."""
         arrays = [None if x is None else self.library.array(x) for x in inputs]
-        points = Points(*np.full((2, room), np.nan, self.library.dtype), np.full(room, 99, np.uint8))
+        points = Points(
+            *np.full((2, room), np.nan, self.library.dtype), np.full(room, 99, np.uint8)
+        )
         written, ffi = self.library.ffi.new("size_t *", 12345), self.library.ffi
         count = [arrays[0].size] if arrays else []
         given = [ffi.NULL if x is None else self.library.at(x) for x in arrays]
@@ -133,7 +136,7 @@ def smoothed(road):
 
     def run(drive, interval_m=0.25, cuts=(), **settings):
         made, edges = road(drive, interval_m, **settings), [0, *sorted(cuts), drive.a.size]
-        parts = [made.push(drive, *pair) for pair in zip(edges, edges[1:], strict=False)]
+        parts = [made.push(drive, *pair) for pair in pairwise(edges)]
         return Points.join([*parts, made.take("finish")])
 
     return run

@@ -42,6 +42,18 @@ def test_a_gap_is_as_the_sdk_has_it(drives, smoothed, of_sdk):
     np.testing.assert_allclose(made.elevation, sdk.elevation, rtol=0, atol=atol)
 
 
+def test_an_edge_under_the_laser_is_as_the_sdk_has_it(drives, smoothed, of_sdk):
+    """The readings jump by 6 mm for a second of the stop: the road is another one there."""
+    drive = stopping(drives)
+    drive.h[1350:1450] += 0.006
+    made = smoothed(drive, INTERVAL_M, lag_s=drives.whole)
+    sdk = of_sdk(drive, INTERVAL_M)
+    atol = 1e-7 * np.abs(drive.h).max()
+    np.testing.assert_allclose(made.elevation, sdk.elevation, rtol=0, atol=atol)
+    deaf = smoothed(drive, INTERVAL_M, lag_s=drives.whole, edge_sigmas=1e6)
+    assert np.abs(deaf.elevation - made.elevation).max() > 1e-3
+
+
 @pytest.mark.parametrize("lag_s", [4.0, 1000.0])
 def test_a_leap_at_a_standstill_flags_the_points_on_either_side(drives, smoothed, lag_s):
     drive = stopping(drives)

@@ -30,9 +30,7 @@ def test_shares_are_taken_as_the_sdk_takes_them(drives, road, of_sdk, seed, node
     given_shares = {name: x for name, x in shares.items() if x is not None}
     sdk = of_sdk(drive, INTERVAL_M, **given_shares)
     atol = 1e-7 * np.abs(drive.h).max()
-    np.testing.assert_allclose(
-        made.take("finish").elevation, sdk.elevation, rtol=0, atol=atol
-    )
+    np.testing.assert_allclose(made.take("finish").elevation, sdk.elevation, rtol=0, atol=atol)
 
 
 def test_levelling_changes_what_a_brake_is_taken_for(drives, road):

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from floatref.estimators.road_prior import RoadPrior
 from floatref_reference.road_prior.encoder import inputs
-from floatref_reference.road_prior.fixed_lag import Sections, divide, fixed_lag
+from floatref_reference.road_prior.fixed_lag import fixed_lag
+from floatref_reference.road_prior.lag_sections import Sections, divide
 from floatref_reference.road_prior.symbols import Constants, recorded
 
 INTERVAL_M = 0.5

@@ -34,8 +34,10 @@ def test_about_a_standstill_it_is_near_the_sdk_s(drives, smoothed, of_sdk, lasts
 
 @pytest.mark.parametrize("speed", [1.2, 9.0])
 def test_a_short_lag_knows_less_and_says_so(drives, smoothed, speed):
-    """At 1.2 m/s more marks are within reach of the high-pass than the history holds. With less
-    of its reach ahead than it has, the 1-sigma may be too small: such a point is unsettled."""
+    """With less road ahead than the high-pass reaches, it may be too small: that is unsettled.
+
+    At 1.2 m/s more marks are within that reach than the history holds.
+    """
     drive = at_speed(drives, speed, 300.0, 3)
     whole, sizes = smoothed(drive, INTERVAL_M, lag_s=drives.whole).sigma, []
     for lag_s in (20.0, 100.0):

@@ -44,8 +44,7 @@ def test_through_a_stop_it_is_the_sdk_s(drives, smoothed, of_sdk, lasts):
 
 @pytest.mark.parametrize("lag_s", [LAG_S, 1000.0])
 def test_three_hours_at_a_fixed_mark_leave_the_road_as_a_minute_does(drives, smoothed, lag_s):
-    """The readings on either side are the same; more of them in between change the elevation by
-    no more than its accuracy."""
+    """More readings in between change the elevation by no more than its accuracy."""
     made = [
         smoothed(stopping(drives, lasts)[0], INTERVAL_M, lag_s=lag_s)
         for lasts in (60.0, THREE_HOURS_S)
