@@ -16,6 +16,12 @@ static inline int fr_missing(fr_real x)
     return x != x;
 }
 
+/* The same of a number that is double in both builds. */
+static inline int fr_missing_number(double x)
+{
+    return x != x;
+}
+
 /* A sample, or the one before it where it is missing. */
 static inline fr_real fr_bridged(fr_real x, fr_real before)
 {
