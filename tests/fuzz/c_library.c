@@ -13,7 +13,7 @@
 
 #include "floatref.h"
 
-enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 20, CALLS = 32, KINDS = 13 };
+enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 20, CALLS = 43, KINDS = 17 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -29,11 +29,16 @@ typedef union any_config {
     fr_matched_high_pass_config matched_high_pass;
     fr_iri_config iri;
     fr_screening_config screening;
+    fr_causes_config causes;
+    fr_saturation_config saturation;
+    fr_encoder_screening_config encoder_screening;
+    fr_usual_config usual;
 } any_config;
 
 typedef struct arrays {
     fr_real *x, *h, *f, *s, *y, *z;
     int64_t *n;
+    uint8_t *flags, *made;
     fr_span *spans;
     size_t count, capacity, written;
 } arrays;
@@ -93,7 +98,13 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
         KIND(10, matched_high_pass, c.rate_hz = 250; c.missing = (int)draw(2))
         KIND(11, iri, c.interval_m = interval)
         KIND(12, screening, c.rate_hz = 250; c.metres_per_count = count_m;
-             c.spread_mps2 = draw(2) * 0.1)
+             c.spread_mps2 = draw(2) * 0.1; c.range_greatest = 5.0 * draw(2))
+        KIND(13, causes, c.rate_hz = 250; c.metres_per_count = count_m; c.interval_m = interval;
+             c.every = 1 + (int)draw(3))
+        KIND(14, saturation, c.range_least = 5 - (int)draw(9); c.range_greatest = 15;
+             c.farthest = 1 + (int)draw(99); c.outermost_mps2 = 1; c.quantum = 0.01 * draw(9))
+        KIND(15, encoder_screening, c.rate_hz = 250; c.metres_per_count = count_m)
+        KIND(16, usual, c.longest = 2 + (int)draw(99))
     default:
         return FR_BAD_CONFIG;
     }
@@ -105,6 +116,11 @@ static fr_status call(int which, void *o, arrays *a)
     size_t n = a->count, room = a->capacity, *w = &a->written;
     fr_cut_off_config cut_off = fr_cut_off_defaults();
     fr_timer_distortion_config timer = {0.05, 3.576, 25.0};
+    fr_validity_config validity = fr_validity_defaults();
+    fr_cross_correlation_config lags = {0.1, 0.5};
+    fr_high_pass_profile_config display = {0.1, number()};
+    fr_agreement agreement;
+    fr_usual_values usual;
     switch (which) {
     case 12: return fr_screening_push(o, a->x, draw(9) ? a->h : NULL, a->n, n, a->spans, room, w);
     case 30: return fr_screening_finish(o, a->spans, room, w);
@@ -121,10 +137,25 @@ static fr_status call(int which, void *o, arrays *a)
     case 9: return fr_local_suppression_push(o, a->x, a->f, n, a->y, room, w);
     case 10: return fr_matched_high_pass_push(o, a->x, a->h, a->f, n, a->y, room, w);
     case 11: return fr_iri_push(o, a->x, n, a->y, room, w);
-    case 13: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
-    case 14: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
-    case 15: return fr_high_pass_set_finish(o);
-    case 16: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
+    case 13:
+        return fr_causes_push(o, a->n, draw(9) ? a->flags : NULL, n, a->made, room, w);
+    case 14: return fr_saturation_push(o, a->x, n, a->spans, room, w);
+    case 15: return fr_encoder_screening_push(o, a->n, n, a->spans, room, w);
+    case 16: return fr_usual_push(o, a->x, n);
+    case 32: return fr_causes_finish(o, a->made, n < room ? n : room);
+    case 33: return fr_saturation_finish(o, a->spans, room, w);
+    case 34: return fr_encoder_screening_finish(o, a->spans, room, w);
+    case 35: return fr_usual_value(o, draw(9) ? &usual : NULL);
+    case 36:
+        validity.interval_m = number();
+        validity.drift_m = number();
+        return fr_validity(&validity, a->flags, n, a->made, room, w);
+    case 37: return fr_cross_correlation(&lags, a->x, a->h, n, &agreement);
+    case 38: return fr_high_pass_profile(&display, a->x, n, a->y, room, w);
+    case 39: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
+    case 40: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
+    case 41: return fr_high_pass_set_finish(o);
+    case 42: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
     case 17: return fr_adaptive_set_height(o, a->h, a->f, n, a->y, room, w);
     case 18: return fr_adaptive_set_reverse(o, a->x, a->f, n, a->y, room, w);
     case 19:
@@ -150,9 +181,19 @@ static fr_real *drawn_reals(size_t count)
     return x;
 }
 
+static uint8_t *drawn_bytes(size_t count)
+{
+    uint8_t *flags = malloc(count + (count == 0));
+    for (size_t i = 0; i < count; i++)
+        flags[i] = draw(9) == 0 ? (uint8_t)draw(draw(999) ? 16 : 256) : 0;
+    return flags;
+}
+
 static arrays drawn_arrays(int64_t *counts)
 {
-    arrays a = {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, draw(4) ? draw(MOST) : draw(3), 0, 0};
+    arrays a;
+    memset(&a, 0, sizeof a);
+    a.count = draw(4) ? draw(MOST) : draw(3);
     a.capacity = draw(6) ? POINTS : draw(MOST);
     a.x = drawn_reals(a.count);
     a.h = drawn_reals(a.count);
@@ -160,11 +201,15 @@ static arrays drawn_arrays(int64_t *counts)
     a.s = drawn_reals(a.count);
     a.y = drawn_reals(a.capacity);
     a.z = drawn_reals(a.capacity);
+    a.flags = drawn_bytes(a.count);
+    a.made = drawn_bytes(a.capacity);
     a.spans = malloc(a.capacity * sizeof *a.spans + (a.capacity == 0));
     a.n = malloc(a.count * sizeof *a.n + (a.count == 0));
     for (size_t i = 0; i < a.count; i++)
         a.n[i] = *counts += draw(5000) == 0 ? (draw(2) ? -300000 : 1) * ((int64_t)1 << draw(33))
                                             : (int64_t)draw(60);
+    if (a.count > 1 && draw(9) == 0)
+        a.n[draw((uint32_t)a.count)] = FR_NO_COUNT;
     *counts = *counts > ((int64_t)1 << 52) || *counts < -((int64_t)1 << 52) ? 0 : *counts;
     return a;
 }
@@ -178,6 +223,8 @@ static void release(arrays *a)
     free(a->y);
     free(a->z);
     free(a->n);
+    free(a->flags);
+    free(a->made);
     free(a->spans);
 }
 

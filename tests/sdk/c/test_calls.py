@@ -25,6 +25,9 @@ REQUIRED = {
     "matched_high_pass": {"rate_hz": 250.0},
     "iri": {"interval_m": 0.25},
     "screening": ENCODER,
+    "causes": {**ENCODER, "interval_m": 0.125},
+    "saturation": {"range_least": -40.0, "range_greatest": 40.0},
+    "encoder_screening": ENCODER,
 }
 """The settings that have no default."""
 CALLS = {

@@ -36,6 +36,7 @@ void fr_travel_set(fr_travel *travel, const fr_travel_speed_config *config)
 {
     travel->window = fr_travel_window(config);
     travel->back = config->back;
+    travel->missing = FR_MISSING_REFUSED;
     travel->metres_per_count = FR_R(config->metres_per_count);
     travel->duration_s = FR_R((double)travel->window / config->rate_hz);
 }
@@ -58,9 +59,26 @@ fr_status fr_check_counts(const int64_t *counts, size_t count, int32_t back, int
     return behind != 0 && back == FR_BACK_REFUSED ? FR_GOES_BACK : FR_OK;
 }
 
+fr_status fr_check_known_counts(const int64_t *counts, size_t count, int32_t back, int64_t before)
+{
+    int64_t furthest = before;
+    fr_status status = count > 0u && counts == NULL ? FR_NULL_POINTER : FR_OK;
+    if (count > FR_MOST_SAMPLES)
+        status = FR_TOO_MANY;
+    for (size_t i = 0; status == FR_OK && i < count; i++) {
+        if (counts[i] == FR_NO_COUNT && furthest != INT64_MIN)
+            continue;
+        status = fr_check_counts(counts + i, 1u, back, furthest);
+        furthest = counts[i] > furthest ? counts[i] : furthest;
+    }
+    return status;
+}
+
 fr_status fr_travel_check(const fr_travel *travel, const int64_t *counts, size_t count)
 {
     int64_t furthest = travel->started != 0 ? travel->furthest : INT64_MIN;
+    if (travel->missing == FR_MISSING_BRIDGED)
+        return fr_check_known_counts(counts, count, travel->back, furthest);
     return fr_check_counts(counts, count, travel->back, furthest);
 }
 
@@ -74,9 +92,29 @@ static int64_t count_before(const fr_travel *travel, const int64_t *ring, const 
     return travel->started != 0 ? ring[at < travel->window ? at : at - travel->window] : counts[0];
 }
 
-void fr_travel_speeds(const fr_travel *travel, const int64_t *ring, const int64_t *counts,
-                      size_t first, size_t size, fr_real *speed)
+/* The same where counts may be missing: while the window has one, the last speed is repeated. */
+static void speeds_of_known(fr_travel *travel, const int64_t *ring, const int64_t *counts,
+                            size_t first, size_t size, fr_real *speed)
 {
+    for (size_t k = 0; k < size; k++) {
+        int64_t now = counts[first + k], before = count_before(travel, ring, counts, first + k);
+        if (now == FR_NO_COUNT)
+            travel->unknown = travel->window + 1u;
+        else if (travel->unknown > 0u)
+            travel->unknown--;
+        if (travel->unknown == 0u)
+            travel->held = FR_R(now - before) * travel->metres_per_count / travel->duration_s;
+        speed[k] = travel->held;
+    }
+}
+
+void fr_travel_speeds(fr_travel *travel, const int64_t *ring, const int64_t *counts, size_t first,
+                      size_t size, fr_real *speed)
+{
+    if (travel->missing == FR_MISSING_BRIDGED) {
+        speeds_of_known(travel, ring, counts, first, size, speed);
+        return;
+    }
     for (size_t k = 0; k < size; k++) {
         int64_t progress = counts[first + k] - count_before(travel, ring, counts, first + k);
         speed[k] = FR_R(progress) * travel->metres_per_count / travel->duration_s;
