@@ -643,7 +643,8 @@ FR_API fr_saturation_config fr_saturation_defaults(void);
 FR_API size_t fr_saturation_size(const fr_saturation_config *config);
 FR_API fr_status fr_saturation_init(void *memory, size_t size, const fr_saturation_config *config,
                                     fr_saturation **out);
-/* NaN where a sample is missing. There has to be room for a third of the samples, and one more. */
+/* NaN where a sample is missing. There has to be room for a span of three holds, three samples at
+ * least, each, and one more. */
 FR_API fr_status fr_saturation_push(fr_saturation *saturation, const fr_real *x, size_t count,
                                     fr_span *spans, size_t capacity, size_t *written);
 /* End the run: FR_OUTPUT_FULL says how much room is needed. */
@@ -653,7 +654,7 @@ FR_API fr_status fr_saturation_finish(fr_saturation *saturation, fr_span *spans,
 /* An encoder: the way between counts 25 ms or more apart is judged by the last two sound ways.
  * Constant memory. */
 typedef struct fr_encoder_screening_config {
-    double rate_hz;          /* samples per second; no default */
+    double rate_hz;          /* samples per second, or ticks of push_timed(); no default */
     double metres_per_count; /* no default */
     double usual_m;          /* usual step from sample to sample that has one; 0, a count */
     double off_m;            /* largest error of a way; 0, a usual step */
@@ -671,6 +672,12 @@ FR_API fr_status fr_encoder_screening_init(void *memory, size_t size,
 FR_API fr_status fr_encoder_screening_push(fr_encoder_screening *screening, const int64_t *counts,
                                            size_t count, fr_span *spans, size_t capacity,
                                            size_t *written);
+/* The same with the time of each count in ticks, as of an encoder that triggers: FR_GOES_BACK if they
+ * do. */
+FR_API fr_status fr_encoder_screening_push_timed(fr_encoder_screening *screening,
+                                                 const int64_t *counts, const int64_t *ticks,
+                                                 size_t count, fr_span *spans, size_t capacity,
+                                                 size_t *written);
 /* End the run: four spans at most, for which there has to be room. */
 FR_API fr_status fr_encoder_screening_finish(fr_encoder_screening *screening, fr_span *spans,
                                              size_t capacity, size_t *written);
@@ -689,6 +696,7 @@ typedef struct fr_usual_values {
     double hold_of_samples; /* half of the samples are in holds up to this */
     double off_neighbours;  /* median distance of a reading from the mean of both beside it, within
                                4.5 %: 0.826 times the 1-sigma of white noise */
+    double rise;            /* the median of the rises of an encoder, in counts, within 4.5 % */
     int64_t samples;        /* that are not missing */
 } fr_usual_values;
 
@@ -700,8 +708,17 @@ FR_API fr_status fr_usual_init(void *memory, size_t size, const fr_usual_config 
                                fr_usual **out);
 /* NaN where a sample is missing. */
 FR_API fr_status fr_usual_push(fr_usual *usual, const fr_real *x, size_t count);
+/* The same of an encoder, for its usual step alone; FR_NO_COUNT where a count is missing. */
+FR_API fr_status fr_usual_push_counts(fr_usual *usual, const int64_t *counts, size_t count);
 /* Of all samples so far and the holds that have ended; FR_WRONG_ORDER before the first. */
 FR_API fr_status fr_usual_value(const fr_usual *usual, fr_usual_values *values);
+
+/* The settings of a search for a sensor of which this is usual; without values, impossible ones. */
+FR_API fr_screening_config fr_screening_of_height(double rate_hz, double metres_per_count,
+                                                  const fr_usual_values *usual);
+FR_API fr_screening_config fr_screening_of_force(double rate_hz, double metres_per_count,
+                                                 const fr_usual_values *usual);
+FR_API fr_saturation_config fr_saturation_of(const fr_usual_values *usual);
 
 #ifdef __cplusplus
 }

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from floatref.screening.damage import encoder_damage
 from floatref.screening.damage.encoder_path import EncoderPath
-from floatref.values.clock import UniformClock
+from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
 RATE, COUNT_M, LENGTH = 1000.0, 2.0**-10, 12_000
@@ -54,14 +54,16 @@ def drive(speed_mps, slower, coarse, faults):
     return counts
 
 
-def in_c(library, channel, counts, edges, usual_m, off_m):
+def in_c(library, counts, edges, usual_m, off_m, ticks=None):
     settings = {"rate_hz": RATE, "metres_per_count": COUNT_M, "usual_m": usual_m, "off_m": off_m}
     made = library.make("encoder_screening", **settings)
+    push, signals = ("push", [counts]) if ticks is None else ("push_timed", [counts, ticks])
     room = 2 * LENGTH
     spans, written, found = library.ffi.new("fr_span[]", room), library.ffi.new("size_t *"), []
     for begin, end in pairwise(edges):
-        part = library.array(counts[begin:end])
-        assert made.call("push", library.at(part), end - begin, spans, room, written) == 0
+        parts = [library.array(x[begin:end]) for x in signals]
+        pointers = map(library.at, parts)
+        assert made.call(push, *pointers, end - begin, spans, room, written) == 0
         found += [(s.kind, s.first, s.behind) for s in spans[0 : written[0]]]
     assert made.call("finish", spans, 4, written) == 0
     return found + [(s.kind, s.first, s.behind) for s in spans[0 : written[0]]]
@@ -107,12 +109,31 @@ def test_stretches_are_those_of_the_whole_channel(double, speed_mps, slower, coa
     metres = np.where(counts == NO_COUNT, np.nan, counts * COUNT_M)
     channel = Channel.of("distance", metres, UniformClock.of(RATE))
     path, damage, off_m = in_the_sdk(channel)
-    found = in_c(double, channel, counts, [0, cut, LENGTH], path.usual_m, off_m)
+    found = in_c(double, counts, [0, cut, LENGTH], path.usual_m, off_m)
     named = [(KINDS[kind], first, behind) for kind, first, behind in found]
     void = [s[1:] for s in named if s[0] in ("leapt", "fast", "lost")]
     gone = [s[1:] for s in named if s[0] in ("back", "silent")]
     np.testing.assert_array_equal(mask(void), mask(damage.void))
     np.testing.assert_array_equal(mask(gone), mask(damage.gone))
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    speed_mps=st.sampled_from([3.0, 22.0]),
+    faults=st.lists(
+        st.tuples(st.sampled_from(["lose", "leap"]), st.integers(BEGIN, LENGTH - 10), st.just(400)),
+        max_size=2,
+    ),
+)
+@example(22.0, [("lose", 5000, 400), ("leap", 9000, 1)])
+def test_an_encoder_that_triggers_is_screened_by_its_time_stamps(double, speed_mps, faults):
+    counts = drive(speed_mps, 0.3, 4, faults)
+    at = np.flatnonzero(np.diff(counts, prepend=-1) > 0)
+    channel = Channel.of("distance", counts[at] * COUNT_M, StampedClock.of(at / RATE))
+    path, damage, off_m = in_the_sdk(channel)
+    found = in_c(double, counts[at], [0, 99, at.size], path.usual_m, off_m, at)
+    void = [s[1:] for s in found if KINDS[s[0]] in ("leapt", "fast", "lost")]
+    np.testing.assert_array_equal(mask(void), mask(damage.void))
 
 
 def test_every_kind_is_found_where_it_is(double):
@@ -125,11 +146,11 @@ def test_every_kind_is_found_where_it_is(double):
     }
     for kind, fault in faults.items():
         counts = drive(22.0, 0.0, 1, [fault])
-        found = in_c(double, None, counts, [0, LENGTH], 0.022, 0.0)
+        found = in_c(double, counts, [0, LENGTH], 0.022, 0.0)
         assert {KINDS[number] for number, *_ in found} == {kind}
         assert min(first for _, first, _ in found) <= 5010
         assert max(behind for *_, behind in found) <= 5000 + fault[2] + 30
-    assert in_c(double, None, drive(22.0, 0.9, 1, []), [0, LENGTH], 0.022, 0.0) == []
+    assert in_c(double, drive(22.0, 0.9, 1, []), [0, LENGTH], 0.022, 0.0) == []
 
 
 def test_spans_without_room_are_refused_and_change_nothing(double):

@@ -29,9 +29,9 @@ static double shortest_travel(double speed, double time_s)
     return (v - 0.5 * HARDEST * braked_s) * braked_s;
 }
 
-static double seconds_of(const fr_judge *j, int64_t samples)
+static double seconds_of(const fr_judge *j, fr_moment from, fr_moment to)
 {
-    return (double)samples * j->period_s;
+    return (double)(to.tick - from.tick) * j->period_s;
 }
 
 static double metres_of(const fr_judge *j, int64_t counts)
@@ -43,7 +43,7 @@ static expected expect(const fr_judge *j, const fr_way *from, double took)
 {
     expected e;
     double m = j->older.m + j->newer.m, s = j->older.s + j->newer.s;
-    double since = seconds_of(j, from->at - j->sound_at);
+    double since = seconds_of(j, j->sound_at, from->at);
     double unsure = j->off_m / s + HARDEST * (0.5 * s + since);
     e.speed = m / s;
     e.local = fmax(j->usual_m, m / fmax(j->older.rises + j->newer.rises, 1.0));
@@ -56,8 +56,8 @@ static expected expect(const fr_judge *j, const fr_way *from, double took)
 static int is_stalled(const fr_judge *j, const fr_way *from, const fr_way *way, const expected *e,
                       double hidden_m)
 {
-    double gap_s = seconds_of(j, way->behind_gap - way->gap);
-    double at_gap = e->slowest - HARDEST * seconds_of(j, way->gap - from->at);
+    double gap_s = seconds_of(j, way->gap, way->behind_gap);
+    double at_gap = e->slowest - HARDEST * seconds_of(j, from->at, way->gap);
     double gone = metres_of(j, way->gap_height) + hidden_m + j->off_m;
     return e->speed >= MOVING_MPS && gone < shortest_travel(at_gap, gap_s) &&
            e->speed * gap_s > LATE * e->local;
@@ -67,8 +67,8 @@ static int is_stalled(const fr_judge *j, const fr_way *from, const fr_way *way, 
 static int32_t too_far(const fr_judge *j, const fr_way *way, const expected *e, double gone,
                        double took)
 {
-    double step = metres_of(j, way->height), step_s = seconds_of(j, way->step - way->before_step);
-    double since_s = seconds_of(j, way->step - way->front);
+    double step = metres_of(j, way->height), step_s = seconds_of(j, way->before_step, way->step);
+    double since_s = seconds_of(j, way->front, way->step);
     int steep = step > fmax(FASTEST_MPS * step_s + LEAP_RISES * e->local, MADE_UP * e->speed * since_s);
     if (!steep && !(gone > fmin(e->most, FASTEST_MPS * took) + ROUGH * e->local))
         return 0;
@@ -77,8 +77,8 @@ static int32_t too_far(const fr_judge *j, const fr_way *way, const expected *e, 
 
 static int is_silent(const fr_judge *j, const fr_way *way, const expected *e)
 {
-    double step = metres_of(j, way->height), since_s = seconds_of(j, way->step - way->front);
-    return way->before_step > way->front && since_s >= SHORTEST_S && step > AT_ONCE * e->local &&
+    double step = metres_of(j, way->height), since_s = seconds_of(j, way->front, way->step);
+    return way->before_step.index > way->front.index && since_s >= SHORTEST_S && step > AT_ONCE * e->local &&
            step * MADE_UP > e->speed * since_s;
 }
 
@@ -98,7 +98,7 @@ static void take_sound(fr_judge *j, const fr_way *way, double gone, double took)
 int32_t fr_judge_way(fr_judge *j, const fr_way *from, const fr_way *way, double hidden_m,
                      int *stalled)
 {
-    double gone = metres_of(j, way->far - from->far), took = seconds_of(j, way->at - from->at);
+    double gone = metres_of(j, way->far - from->far), took = seconds_of(j, from->at, way->at);
     int32_t kind = 0;
     *stalled = 0;
     if (j->ways > 0) {

@@ -15,7 +15,7 @@ typedef struct fr_travelled {
 typedef struct fr_judge {
     double period_s, metres_per_count, usual_m, off_m;
     fr_travelled older, newer; /* the last two sound ways */
-    int64_t sound_at;          /* the knot at the end of the last one */
+    fr_moment sound_at;        /* the knot at the end of the last one */
     int32_t ways, reserved;    /* sound ones so far, two at most */
 } fr_judge;
 

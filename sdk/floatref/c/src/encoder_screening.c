@@ -17,9 +17,10 @@ struct fr_encoder_screening {
     fr_head head;
     fr_judge judge;
     fr_progress progress;
-    int64_t index;      /* of the next count */
-    int64_t held;       /* the count that waits for the next known one */
-    int64_t held_index; /* -1 without one */
+    int64_t index;  /* of the next count */
+    int64_t ticks;  /* of the last one */
+    int64_t held;   /* the count that waits for the next one */
+    fr_moment when; /* of it; index -1 without one */
 };
 
 fr_encoder_screening_config fr_encoder_screening_defaults(void)
@@ -62,16 +63,17 @@ fr_status fr_encoder_screening_init(void *memory, size_t size,
     s->progress.apart = config->knot_s * config->rate_hz;
     s->progress.usual = 1e300;
     s->progress.back = -1;
-    s->held_index = -1;
+    s->when.index = -1;
     *out = s;
     return FR_OK;
 }
 
 /* Samples between two of a way; if there are none, the later one, on which the line depends. */
-static size_t report_between(fr_span *spans, size_t made, int64_t first, int64_t behind,
+static size_t report_between(fr_span *spans, size_t made, fr_moment before, fr_moment after,
                              int32_t kind)
 {
-    return fr_report(spans, made, first + 1, behind > first + 2 ? behind : first + 2, kind);
+    int64_t first = before.index + 1, behind = after.index;
+    return fr_report(spans, made, first, behind > first + 1 ? behind : first + 1, kind);
 }
 
 static size_t judge_knot(fr_encoder_screening *s, const fr_way *from, double hidden_m,
@@ -85,10 +87,10 @@ static size_t judge_knot(fr_encoder_screening *s, const fr_way *from, double hid
     if (kind == FR_SILENT)
         return report_between(spans, made, way->front, way->step, kind);
     if (kind == FR_LEAPT)
-        return fr_report(spans, made, way->before_step + 1, way->step + 1, kind);
+        return fr_report(spans, made, way->before_step.index + 1, way->step.index + 1, kind);
     if (stalled)
         return report_between(spans, made, way->gap, way->behind_gap, kind);
-    return fr_report(spans, made, from->at + 1, way->at + 1, kind);
+    return fr_report(spans, made, from->at.index + 1, way->at.index + 1, kind);
 }
 
 /* What lay behind ends where a later count does not. */
@@ -107,41 +109,65 @@ static size_t take_count(fr_encoder_screening *s, int64_t after, fr_span *spans,
     fr_progress *p = &s->progress;
     fr_way from;
     size_t made = before;
-    if (p->back >= 0 && p->behind != s->held_index)
-        made = close_back(p, s->held_index, spans, made);
-    if (fr_progress_take(p, s->held_index, s->held, after, &from) != 0)
+    if (p->back >= 0 && p->behind != s->when.index)
+        made = close_back(p, s->when.index, spans, made);
+    if (fr_progress_take(p, s->when, s->held, after, &from) != 0)
         made = judge_knot(s, &from, 0.0, spans, made);
-    return close_back(p, s->held_index, spans, made);
+    return close_back(p, s->when.index, spans, made);
 }
 
-static size_t run_encoder(fr_encoder_screening *s, const int64_t *counts, size_t count,
-                          fr_span *spans)
+static size_t run_encoder(fr_encoder_screening *s, const int64_t *counts, const int64_t *ticks,
+                          size_t count, fr_span *spans)
 {
     size_t made = 0;
     for (size_t i = 0; i < count; i++) {
         /* Before a missing count none is known to return at once. */
-        if (s->held_index >= 0)
+        if (s->when.index >= 0)
             made = take_count(s, counts[i] != FR_NO_COUNT ? counts[i] : s->held, spans, made);
+        s->ticks = ticks != NULL ? ticks[i] : s->index;
         s->held = counts[i];
-        s->held_index = counts[i] != FR_NO_COUNT ? s->index : -1;
+        s->when.index = counts[i] != FR_NO_COUNT ? s->index : -1;
+        s->when.tick = s->ticks;
         s->index++;
     }
     return made;
+}
+
+static fr_status push_counts(fr_encoder_screening *s, const int64_t *counts, const int64_t *ticks,
+                             size_t count, fr_span *spans, size_t capacity, size_t *written)
+{
+    fr_status status = written == NULL ? FR_NULL_POINTER : FR_OK;
+    if (status == FR_OK)
+        status = fr_check_known_counts(counts, count, FR_BACK_TAKEN, 0);
+    if (status == FR_OK && ticks != NULL)
+        status = fr_check_counts(ticks, count, FR_BACK_REFUSED,
+                                 s->index > 0 ? s->ticks : INT64_MIN);
+    if (status == FR_OK)
+        status = fr_room_for_spans(SPANS_OF_COUNT * count, spans, capacity, written);
+    if (status == FR_OK)
+        *written = run_encoder(s, counts, ticks, count, spans);
+    return status;
 }
 
 fr_status fr_encoder_screening_push(fr_encoder_screening *screening, const int64_t *counts,
                                     size_t count, fr_span *spans, size_t capacity, size_t *written)
 {
     fr_status status = fr_ready(screening, ENCODER_MAGIC);
-    if (status == FR_OK && written == NULL)
+    if (status != FR_OK)
+        return status;
+    return push_counts(screening, counts, NULL, count, spans, capacity, written);
+}
+
+fr_status fr_encoder_screening_push_timed(fr_encoder_screening *screening, const int64_t *counts,
+                                          const int64_t *ticks, size_t count, fr_span *spans,
+                                          size_t capacity, size_t *written)
+{
+    fr_status status = fr_ready(screening, ENCODER_MAGIC);
+    if (status == FR_OK && ticks == NULL)
         status = FR_NULL_POINTER;
-    if (status == FR_OK)
-        status = fr_check_known_counts(counts, count, FR_BACK_TAKEN, 0);
-    if (status == FR_OK)
-        status = fr_room_for_spans(SPANS_OF_COUNT * count, spans, capacity, written);
-    if (status == FR_OK)
-        *written = run_encoder(screening, counts, count, spans);
-    return status;
+    if (status != FR_OK)
+        return status;
+    return push_counts(screening, counts, ticks, count, spans, capacity, written);
 }
 
 fr_status fr_encoder_screening_finish(fr_encoder_screening *screening, fr_span *spans,
@@ -156,7 +182,7 @@ fr_status fr_encoder_screening_finish(fr_encoder_screening *screening, fr_span *
         status = fr_room_for_spans(SPANS_OF_END, spans, capacity, written);
     if (status != FR_OK)
         return status;
-    if (screening->held_index >= 0)
+    if (screening->when.index >= 0)
         made = take_count(screening, screening->held, spans, made);
     made = close_back(&screening->progress, INT64_MAX - 1, spans, made);
     if (fr_progress_end(&screening->progress, &from) != 0)

@@ -208,6 +208,13 @@ static size_t judge_sample(fr_saturation *s, fr_span *spans, size_t made)
     return found;
 }
 
+/* The most runs that end within `count` samples, if one is open before the first. */
+static size_t most_spans(const fr_saturation *s, size_t count)
+{
+    size_t held = (size_t)(HELD * s->hold);
+    return count / (held > LEAST_SATURATED ? held : LEAST_SATURATED) + 1u;
+}
+
 fr_status fr_saturation_push(fr_saturation *saturation, const fr_real *x, size_t count,
                              fr_span *spans, size_t capacity, size_t *written)
 {
@@ -217,7 +224,7 @@ fr_status fr_saturation_push(fr_saturation *saturation, const fr_real *x, size_t
     if (status == FR_OK)
         status = fr_check_samples(x, count, FR_MISSING_BRIDGED);
     if (status == FR_OK)
-        status = fr_room_for_spans(count > 0u ? count / LEAST_SATURATED + 1u : 0u, spans, capacity, written);
+        status = fr_room_for_spans(most_spans(saturation, count), spans, capacity, written);
     if (status != FR_OK)
         return status;
     fr_real *ring = (fr_real *)FR_BEHIND(saturation, fr_saturation);
@@ -241,7 +248,7 @@ fr_status fr_saturation_finish(fr_saturation *saturation, fr_span *spans, size_t
     if (status != FR_OK)
         return status;
     size_t rest = (size_t)(saturation->taken - saturation->cursor), made = 0;
-    status = fr_room_for_spans(rest / LEAST_SATURATED + 2u, spans, capacity, written);
+    status = fr_room_for_spans(most_spans(saturation, rest) + 1u, spans, capacity, written);
     if (status != FR_OK)
         return status;
     while (saturation->cursor < saturation->taken)

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "samples.h"
+#include "travel.h"
 
 #define USUAL_MAGIC FR_MAGIC(27)
 #define MOST_LONGEST (1 << 20)
@@ -20,8 +20,8 @@ struct fr_usual {
     double value, before;   /* of it, and of the one before it */
     double least, greatest, quantum;
     double in_long;         /* samples in the longest holds */
-    int64_t samples;
-    uint32_t noise[BINS];
+    int64_t samples, furthest; /* count of an encoder */
+    uint32_t noise[BINS]; /* distances from the neighbours, or rises of an encoder */
 };
 
 fr_usual_config fr_usual_defaults(void)
@@ -118,6 +118,23 @@ fr_status fr_usual_push(fr_usual *usual, const fr_real *x, size_t count)
     return status;
 }
 
+fr_status fr_usual_push_counts(fr_usual *usual, const int64_t *counts, size_t count)
+{
+    fr_status status = fr_ready(usual, USUAL_MAGIC);
+    if (status == FR_OK)
+        status = fr_check_known_counts(counts, count, FR_BACK_TAKEN, 0);
+    for (size_t i = 0; status == FR_OK && i < count; i++) {
+        if (counts[i] == FR_NO_COUNT)
+            continue;
+        if (usual->samples > 0 && counts[i] > usual->furthest)
+            count_noise(usual, (double)(counts[i] - usual->furthest));
+        if (usual->samples == 0 || counts[i] > usual->furthest)
+            usual->furthest = counts[i];
+        usual->samples++;
+    }
+    return status;
+}
+
 /* Shortest hold within which half of the holds lie, or half of the samples; infinite if that is
  * among the longest ones. */
 static double middle_hold(const fr_usual *usual, const uint32_t *held, int of_samples)
@@ -167,6 +184,7 @@ fr_status fr_usual_value(const fr_usual *usual, fr_usual_values *values)
     values->hold_of_holds = middle_hold(usual, held, 0);
     values->hold_of_samples = middle_hold(usual, held, 1);
     values->off_neighbours = middle_noise(usual);
+    values->rise = values->off_neighbours;
     values->samples = usual->samples;
     return FR_OK;
 }
