@@ -20,6 +20,10 @@ SETTINGS = {
     "matched_high_pass": {"rate_hz": 16_000.0},
     "iri": {"interval_m": 0.025},
     "screening": ENCODER,
+    "causes": {**ENCODER, "interval_m": 0.025},
+    "saturation": {"range_least": -40.0, "range_greatest": 60.0},
+    "encoder_screening": ENCODER,
+    "usual": {},
 }
 
 
