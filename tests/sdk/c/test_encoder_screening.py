@@ -16,11 +16,12 @@ NO_COUNT = -(2**63)
 KINDS = {6: "back", 7: "silent", 8: "leapt", 9: "fast", 10: "lost"}
 BEGIN = 600
 """Faults come behind the ways whose median is the SDK's first speed."""
+# A silence of 20 samples is as long as the limit: in the SDK the rounding of its times decides.
 FAULTS = st.lists(
     st.tuples(
         st.sampled_from(["hold", "lose", "miss", "leap", "back", "double", "spike"]),
         st.integers(BEGIN, LENGTH - 10),
-        st.sampled_from([1, 2, 19, 20, 30, 60, 250, 2500]),
+        st.sampled_from([1, 2, 19, 21, 30, 60, 250, 2500]),
     ),
     max_size=4,
 )

@@ -35,11 +35,7 @@ fr_adaptive_config fr_adaptive_defaults(void)
 {
     fr_adaptive_config config = {{0.0, 0.0, 0.0, FR_BACK_REFUSED},
                                  {0.0, 0.0, 0.0, 0.0},
-                                 0.0,
-                                 0.0,
-                                 FR_MISSING_REFUSED,
-                                 FR_TANGENT_EXACT,
-                                 1};
+                                 0.0, 0.0, FR_MISSING_REFUSED, FR_TANGENT_EXACT, 1};
     config.travel = fr_travel_speed_defaults();
     config.cut_off = fr_cut_off_defaults();
     return config;

@@ -108,7 +108,7 @@ int32_t fr_judge_way(fr_judge *j, const fr_way *from, const fr_way *way, double 
         if (kind == 0 && e.speed >= MOVING_MPS &&
             gone + hidden_m + ROUGH * e.local < shortest_travel(e.slowest, took))
             kind = FR_LOST;
-        else if (kind == 0 && is_silent(j, way, &e))
+        if (kind == 0 && is_silent(j, way, &e))
             kind = FR_SILENT;
     }
     if (kind == 0 || kind == FR_SILENT)

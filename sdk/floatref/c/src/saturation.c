@@ -13,10 +13,9 @@
 #define MOST_HOLD 4096.0
 #define MOST_AHEAD (1 << 22)
 
-/* Decision 0012. Fewest samples of a run; the same in holds; a swing is looked at over so many
- * holds at least; it falls so many times farther than a peak that is flat by rounding; a run of so
- * many holds is no accident of noise, or the swing falls by so many usual ones, of so many holds to
- * either side. */
+/* Decision 0012. Fewest samples and holds of a run; fewest holds over which a swing is looked at; it
+ * falls so many times farther than a peak that is flat by rounding; a run of so many holds is no
+ * accident of noise, or the swing falls by so many usual ones, of so many holds to either side. */
 enum { LEAST_SATURATED = 3, AROUND = 5, BESIDE = 250, SHORT_RUN = 12 };
 #define HELD 3.0
 #define STEEP 2.0
@@ -208,7 +207,7 @@ static size_t judge_sample(fr_saturation *s, fr_span *spans, size_t made)
     return found;
 }
 
-/* The most runs that end within `count` samples, if one is open before the first. */
+/* The most runs that end within `count` samples. */
 static size_t most_spans(const fr_saturation *s, size_t count)
 {
     size_t held = (size_t)(HELD * s->hold);

@@ -98,10 +98,8 @@ static void speeds_of_known(fr_travel *travel, const int64_t *ring, const int64_
 {
     for (size_t k = 0; k < size; k++) {
         int64_t now = counts[first + k], before = count_before(travel, ring, counts, first + k);
-        if (now == FR_NO_COUNT)
-            travel->unknown = travel->window + 1u;
-        else if (travel->unknown > 0u)
-            travel->unknown--;
+        uint32_t left = travel->unknown > 0u ? travel->unknown - 1u : 0u;
+        travel->unknown = now == FR_NO_COUNT ? travel->window + 1u : left;
         if (travel->unknown == 0u)
             travel->held = FR_R(now - before) * travel->metres_per_count / travel->duration_s;
         speed[k] = travel->held;
