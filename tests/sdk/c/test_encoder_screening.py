@@ -33,26 +33,52 @@ def drive(speed_mps, slower, coarse, faults):
     speed = speed_mps * (1.0 - slower * np.sin(np.pi * np.clip((t - 4.0) / 4.0, 0.0, 1.0)))
     counts = np.floor(np.cumsum(speed) / RATE / COUNT_M / coarse).astype(np.int64) * coarse
     for kind, at, length in faults:
-        behind = min(at + length, LENGTH - 1)
-        step = int(counts[behind] - counts[at])
-        if kind == "hold":
-            counts[at:behind] = counts[at]
-        elif kind == "lose":
-            counts[behind:] -= step
-            counts[at:behind] = counts[at]
-        elif kind == "double":
-            counts[at:behind] += counts[at:behind] - counts[at]
-            counts[behind:] += step
-        elif kind == "leap":
-            counts[at:] += 400
-        elif kind == "back":
-            counts[at:behind] -= 40
-        elif kind == "spike":
-            counts[at] += 900
+        FAULT[kind](counts, at, min(at + length, LENGTH - 1))
     for kind, at, length in faults:
         if kind == "miss":
             counts[at : at + min(length, 200)] = NO_COUNT
     return counts
+
+
+def hold(counts, at, behind):
+    counts[at:behind] = counts[at]
+
+
+def lose(counts, at, behind):
+    counts[behind:] -= int(counts[behind] - counts[at])
+    hold(counts, at, behind)
+
+
+def double_counts(counts, at, behind):
+    step = int(counts[behind] - counts[at])
+    counts[at:behind] += counts[at:behind] - counts[at]
+    counts[behind:] += step
+
+
+def shifted(by):
+    def shift(counts, at, behind):
+        counts[at:behind] += by
+
+    return shift
+
+
+def leap(counts, at, behind):
+    counts[at:] += 400
+
+
+def spike(counts, at, behind):
+    counts[at] += 900
+
+
+FAULT = {
+    "hold": hold,
+    "lose": lose,
+    "double": double_counts,
+    "leap": leap,
+    "back": shifted(-40),
+    "spike": spike,
+    "miss": shifted(0),
+}
 
 
 def in_c(library, counts, edges, usual_m, off_m, ticks=None):

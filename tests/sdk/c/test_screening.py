@@ -48,7 +48,9 @@ def through_c(library, signals, edges, **settings):
         found += [(s.kind, s.first, s.behind) for s in spans[0 : written[0]]]
     assert made.call("finish", spans, 100, written) == 0
     found += [(s.kind, s.first, s.behind) for s in spans[0 : written[0]]]
-    kinds = {k: [span for kind, *span in found if kind == k] for k in (GAP, STUCK, OUT_OF_RANGE, SPIKE)}
+    kinds = {
+        k: [span for kind, *span in found if kind == k] for k in (GAP, STUCK, OUT_OF_RANGE, SPIKE)
+    }
     return {k: np.array(v, np.int64).reshape(-1, 2) for k, v in kinds.items()}
 
 
