@@ -33,7 +33,7 @@ def speed_of_the_sdk(counts):
     stage = TravelSpeed()
     channels = frozenset({ChannelId(DISTANCE)})
     stage.start(Header(Axis.TIME, 1.0 / RATE, 0.0, Fraction(250), channels, ("main",)))
-    (block,) = stage.push(Block(0, {ChannelId(DISTANCE): distance}))
+    block = stage.push(Block(0, {ChannelId(DISTANCE): distance}))
     return block[ChannelId(TRAVEL_SPEED)]
 
 
