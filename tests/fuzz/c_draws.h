@@ -18,7 +18,7 @@ typedef struct arrays {
     int64_t *n;
     fr_span *spans;
     double *imu[7], *heights;
-    uint8_t *b;
+    uint8_t *flags, *b;
     size_t count, capacity, written;
 } arrays;
 
@@ -51,6 +51,14 @@ static fr_real *drawn_reals(size_t count)
     return x;
 }
 
+static uint8_t *drawn_bytes(size_t count)
+{
+    uint8_t *flags = malloc(count + (count == 0));
+    for (size_t i = 0; i < count; i++)
+        flags[i] = draw(9) == 0 ? (uint8_t)draw(draw(999) ? 16 : 256) : 0;
+    return flags;
+}
+
 static double *drawn_doubles(size_t count)
 {
     double *x = malloc(count * sizeof *x + (count == 0));
@@ -78,12 +86,15 @@ static arrays drawn_arrays(int64_t *counts)
     for (int i = 0; i < 7; i++)
         a.imu[i] = drawn_doubles(a.count);
     a.heights = drawn_doubles(a.capacity);
-    a.b = malloc(a.capacity + (a.capacity == 0));
+    a.flags = drawn_bytes(a.count);
+    a.b = drawn_bytes(a.capacity);
     a.spans = malloc(a.capacity * sizeof *a.spans + (a.capacity == 0));
     a.n = malloc(a.count * sizeof *a.n + (a.count == 0));
     for (size_t i = 0; i < a.count; i++)
         a.n[i] = *counts += draw(5000) == 0 ? (draw(2) ? -300000 : 1) * ((int64_t)1 << draw(33))
                                             : (int64_t)draw(60);
+    if (a.count > 1 && draw(9) == 0)
+        a.n[draw((uint32_t)a.count)] = FR_NO_COUNT;
     *counts = *counts > ((int64_t)1 << 52) || *counts < -((int64_t)1 << 52) ? 0 : *counts;
     return a;
 }
@@ -101,6 +112,7 @@ static void release(arrays *a)
     for (int i = 0; i < 7; i++)
         free(a->imu[i]);
     free(a->heights);
+    free(a->flags);
     free(a->b);
     free(a->p);
 }

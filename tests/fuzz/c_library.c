@@ -10,7 +10,7 @@
 
 #include "c_draws.h"
 
-enum { LARGEST = 1 << 20, CALLS = 42, KINDS = 16 };
+enum { LARGEST = 1 << 20, CALLS = 58, KINDS = 20 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -29,6 +29,10 @@ typedef union any_config {
     fr_road_prior_config road_prior;
     fr_kalman_filter_config kalman_filter;
     fr_kalman_config kalman;
+    fr_causes_config causes;
+    fr_saturation_config saturation;
+    fr_encoder_screening_config encoder_screening;
+    fr_usual_config usual;
 } any_config;
 
 static void set_kalman(fr_kalman_filter_config *c, double count_m)
@@ -76,13 +80,19 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
         KIND(10, matched_high_pass, c.rate_hz = 250; c.missing = (int)draw(2))
         KIND(11, iri, c.interval_m = interval)
         KIND(12, screening, c.rate_hz = 250; c.metres_per_count = count_m;
-             c.spread_mps2 = draw(2) * 0.1)
+             c.spread_mps2 = draw(2) * 0.1; c.range_greatest = 5.0 * draw(2))
         KIND(13, road_prior, c.rate_hz = 250; c.metres_per_count = count_m;
              c.interval_m = interval; c.node_rate_hz = 10.0 + draw(300); c.lag_s = 0.1 + 0.1 * draw(9);
              c.missing = (int)draw(2); c.back = (int)draw(2); c.fastest_mps = 20.0 + draw(99))
         KIND(14, kalman_filter, set_kalman(&c, count_m))
         KIND(15, kalman, set_kalman(&c.filter, count_m); c.interval_m = 10 * interval; c.lag_s = 2;
              c.gnss_hz = 5; c.fastest_mps = 10)
+        KIND(16, causes, c.rate_hz = 250; c.metres_per_count = count_m; c.interval_m = interval;
+             c.every = 1 + (int)draw(3))
+        KIND(17, saturation, c.range_least = 5 - (int)draw(9); c.range_greatest = 15;
+             c.farthest = 1 + (int)draw(99); c.outermost_mps2 = 1; c.quantum = 0.01 * draw(9))
+        KIND(18, encoder_screening, c.rate_hz = 250; c.metres_per_count = count_m)
+        KIND(19, usual, c.longest = 2 + (int)draw(99))
     default:
         return FR_BAD_CONFIG;
     }
@@ -102,6 +112,22 @@ static fr_status read_gnss(int smoother, void *o)
                     : fr_kalman_filter_push_gnss(o, sample, draw(99) ? values : NULL, given);
 }
 
+/* One of the calls that take a finished profile, without an object. */
+static fr_status call_profile(int which, arrays *a)
+{
+    fr_validity_config validity = fr_validity_defaults();
+    fr_cross_correlation_config lags = {0.1, 0.5};
+    fr_high_pass_profile_config display = {0.1, number()};
+    fr_agreement agreement;
+    validity.interval_m = number();
+    validity.drift_m = number();
+    switch (which) {
+    case 51: return fr_validity(&validity, a->flags, a->count, a->b, a->capacity, &a->written);
+    case 52: return fr_cross_correlation(&lags, a->x, a->h, a->count, &agreement);
+    default: return fr_high_pass_profile(&display, a->x, a->count, a->y, a->capacity, &a->written);
+    }
+}
+
 /* One of the calls; it may be of another kind of object. */
 static fr_status call(int which, void *o, arrays *a)
 {
@@ -110,7 +136,19 @@ static fr_status call(int which, void *o, arrays *a)
     fr_timer_distortion_config timer = {0.05, 3.576, 25.0};
     fr_imu imu = {a->imu[0], a->imu[1], a->imu[2], a->imu[3], a->imu[4], a->imu[5]};
     int64_t left_out[4];
+    fr_usual_values usual;
     switch (which) {
+    case 16: return fr_causes_push(o, a->n, draw(9) ? a->flags : NULL, n, a->b, room, w);
+    case 17: return fr_saturation_push(o, a->x, n, a->spans, room, w);
+    case 18: return fr_encoder_screening_push(o, a->n, n, a->spans, room, w);
+    case 19: return fr_usual_push(o, a->x, n);
+    case 47: return fr_causes_finish(o, a->b, n < room ? n : room);
+    case 48: return fr_saturation_finish(o, a->spans, room, w);
+    case 49: return fr_encoder_screening_finish(o, a->spans, room, w);
+    case 50: return fr_usual_value(o, draw(9) ? &usual : NULL);
+    case 51:
+    case 52:
+    case 53: return call_profile(which, a);
     case 12: return fr_screening_push(o, a->x, draw(9) ? a->h : NULL, a->n, n, a->spans, room, w);
     case 30: return fr_screening_finish(o, a->spans, room, w);
     case 31: return fr_high_pass_set_velocity(o, a->x, n, a->y, room, w);
@@ -146,10 +184,10 @@ static fr_status call(int which, void *o, arrays *a)
     case 35: return fr_kalman_finish(o, a->y, a->z, a->b, room, w);
     case 36: return fr_kalman_filter_left_out(o, left_out);
     case 37: return fr_kalman_left_out(o, draw(9) ? left_out : NULL);
-    case 16: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
-    case 17: return fr_adaptive_set_height(o, a->h, a->f, n, a->y, room, w);
-    case 18: return fr_adaptive_set_reverse(o, a->x, a->f, n, a->y, room, w);
-    case 19:
+    case 43: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
+    case 44: return fr_adaptive_set_height(o, a->h, a->f, n, a->y, room, w);
+    case 45: return fr_adaptive_set_reverse(o, a->x, a->f, n, a->y, room, w);
+    case 46:
         return fr_adaptive_set_reverse_over_distance(o, number(), a->x, a->f, n, a->y, room, w);
     case 20: return fr_adaptive_set_finish(o);
     case 21: return fr_adaptive_finish(o, a->x, a->f, n, a->y, room, w);

@@ -78,6 +78,9 @@ enum {
 /* What happens to a missing (NaN) sample. */
 enum { FR_MISSING_REFUSED = 0, FR_MISSING_BRIDGED = 1 };
 
+/* A count that is missing, where a setting bridges missing samples; never the first of a run. */
+#define FR_NO_COUNT INT64_MIN
+
 /* One line in English; also for a number that is no status. Never NULL. */
 FR_API const char *fr_status_text(fr_status status);
 
@@ -548,19 +551,126 @@ FR_API fr_status fr_iri_finish(fr_iri *iri, fr_real *trace, size_t capacity, siz
 FR_API fr_status fr_iri_value(const fr_iri *iri, fr_real *m_per_km);
 
 /* ---------------------------------------------------------------------------------------------
- * Screening of one sensor as its samples come: gaps that a line does not bridge well (decision
- * 0004), and a sensor that is stuck: identical samples while the vehicle goes on and the
- * accelerometer beside it moves. A span is known when it has ended. Constant memory.
+ * Measures of a finished profile. No object. HPF_B3x2 of appendix A takes out long waves for a
+ * display, from the first elevation on; the cross correlation (2.12) to (2.16) says how well one
+ * filtered profile agrees with another on the same points.
  */
-enum { FR_GAP = 1, FR_STUCK = 2 };
+typedef struct fr_high_pass_profile_config {
+    double interval_m;   /* between points; no default */
+    double wavelength_m; /* of -3 dB of both passes together (A.22); 91.44 */
+} fr_high_pass_profile_config;
+
+FR_API fr_high_pass_profile_config fr_high_pass_profile_defaults(void);
+/* `filtered` may be `elevation`. FR_BAD_CONFIG for a wavelength of less than about two intervals. */
+FR_API fr_status fr_high_pass_profile(const fr_high_pass_profile_config *config,
+                                      const fr_real *elevation, size_t count, fr_real *filtered,
+                                      size_t capacity, size_t *written);
+
+typedef struct fr_cross_correlation_config {
+    double interval_m;   /* between points; no default */
+    double max_offset_m; /* farthest offset to either side; 1 */
+} fr_cross_correlation_config;
+
+typedef struct fr_agreement {
+    double cross_correlation; /* score (2.16): the product of both factors */
+    double correlation;       /* (2.14), the highest of all offsets, the nearest to zero of equals */
+    double amplitude_factor;  /* (2.15) there */
+    double offset_m;          /* above zero where q lies farther along */
+} fr_agreement;
+
+FR_API fr_cross_correlation_config fr_cross_correlation_defaults(void);
+/* Of `count` points of each. FR_BAD_CONFIG for less than four times the farthest offset. The time
+ * grows with the number of points times that of offsets. */
+FR_API fr_status fr_cross_correlation(const fr_cross_correlation_config *config, const fr_real *p,
+                                      const fr_real *q, size_t count, fr_agreement *agreement);
+
+/* ---------------------------------------------------------------------------------------------
+ * What to trust. Causes are bits of a sample or a point; 0 is a sound one. fr_causes adds the marks
+ * of the drive to the causes of the sensors and carries both to the points of the profile, and
+ * fr_validity() extends them over distance. Slow is a mean speed over two windows below `slow_mps`;
+ * braking is a deceleration between them that would stop the vehicle within `stopping_time_s`.
+ * Memory: 16 bytes for each look within a window.
+ */
+enum {
+    FR_CAUSE_MISSING = 1, /* not measured; bridged */
+    FR_CAUSE_DRIFT = 2,   /* the integrals are disturbed; a gap of the accelerometer */
+    FR_CAUSE_SLOW = 4,    /* slow travel, or travel that is not known */
+    FR_CAUSE_BRAKING = 8  /* the accelerometer tilts */
+};
+
+typedef struct fr_causes_config {
+    double rate_hz;          /* samples per second; no default */
+    double metres_per_count; /* of the encoder; no default */
+    double interval_m;       /* between points of the profile; no default */
+    double slow_mps;         /* 4.4704 */
+    double stopping_time_s;  /* 5 */
+    double window_s;         /* 0.25 */
+    int32_t every;           /* samples between looks at the counts; 1, as in the SDK */
+    int32_t reserved;        /* 0 */
+} fr_causes_config;
+
+typedef struct fr_causes fr_causes;
+
+FR_API fr_causes_config fr_causes_defaults(void);
+FR_API size_t fr_causes_size(const fr_causes_config *config);
+FR_API fr_status fr_causes_init(void *memory, size_t size, const fr_causes_config *config,
+                                fr_causes **out);
+/* Causes of every point that the samples reach. Those of each sample may be NULL, for sound ones.
+ * Counts may be missing (FR_NO_COUNT), but for the first one of the run. */
+FR_API fr_status fr_causes_push(fr_causes *causes, const int64_t *counts,
+                                const uint8_t *of_samples, size_t count, uint8_t *of_points,
+                                size_t capacity, size_t *written);
+/* End the run: the last of all `count` points gets the causes behind it. */
+FR_API fr_status fr_causes_finish(fr_causes *causes, uint8_t *of_points, size_t count);
+
+typedef struct fr_validity_config {
+    double interval_m;      /* between points; no default */
+    double drift_m;         /* to either side of a disturbed integral; 105.91, a cut-off wavelength */
+    double run_in_m;        /* from either end of the run; 52.955 */
+    double before_slow_m;   /* 15, as for 5.7 */
+    double after_slow_m;    /* 30 */
+    double after_braking_m; /* 30 */
+} fr_validity_config;
+
+FR_API fr_validity_config fr_validity_defaults(void);
+/* 1 for a valid point and 0 for another, of all points of a run. `valid` may be `causes`. */
+FR_API fr_status fr_validity(const fr_validity_config *config, const uint8_t *causes, size_t count,
+                             uint8_t *valid, size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * Screening: samples that are there but measure nothing, as spans of their indices. A span is known
+ * when it has ended: in fr_screening with the sample behind it, in fr_encoder_screening with the
+ * knot behind it, in fr_saturation with the samples of `farthest` or 262 holds behind it. The kind
+ * says what becomes of it:
+ *
+ *   a line between its neighbours, FR_CAUSE_MISSING    FR_GAP, FR_STUCK, FR_OUT_OF_RANGE, FR_SPIKE,
+ *                                                      FR_BACK, FR_SILENT
+ *   and FR_CAUSE_DRIFT at any length, accelerometer    FR_STUCK, FR_SATURATED
+ *   FR_NO_COUNT, FR_CAUSE_SLOW, of an encoder          FR_LEAPT, FR_TOO_MANY_COUNTS, FR_LOST
+ */
+enum {
+    FR_GAP = 1,
+    FR_STUCK = 2,
+    FR_OUT_OF_RANGE = 3,
+    FR_SPIKE = 4,
+    FR_SATURATED = 5,
+    FR_BACK = 6,            /* behind where the encoder has been, or a count that returns at once */
+    FR_SILENT = 7,          /* constant, and made up for at once */
+    FR_LEAPT = 8,           /* farther at once than a vehicle goes */
+    FR_TOO_MANY_COUNTS = 9, /* the same, count by count */
+    FR_LOST = 10            /* less than the shortest way to a stop, braking with 2 g */
+};
 
 typedef struct fr_span {
     int64_t first;    /* index of its first sample in the run */
     int64_t behind;   /* index of the sample behind its last one */
-    int32_t kind;     /* FR_GAP or FR_STUCK */
+    int32_t kind;     /* FR_GAP to FR_LOST */
     int32_t reserved; /* 0 */
 } fr_span;
 
+/* A height or an accelerometer: gaps that a line does not bridge well (decision 0004); identical
+ * samples while the vehicle goes on and the accelerometer beside it moves; a height out of its
+ * range; spikes of one sample. Constant memory. */
 typedef struct fr_screening_config {
     double rate_hz;          /* samples per second; no default */
     double metres_per_count; /* of the encoder; no default */
@@ -570,6 +680,13 @@ typedef struct fr_screening_config {
     double hold;             /* usual hold: samples for which a working sensor repeats itself; 1 */
     double travel_m;         /* shortest distance that the vehicle goes meanwhile; 0.5 */
     double spread_mps2;      /* least spread of the accelerometer meanwhile; 0.1, 0 without one */
+    double range_least;      /* ends of the range of a height; 0 and 0, not known */
+    double range_greatest;
+    double stay_s;     /* shortest stay at an end; 0.002 */
+    double stay_holds; /* the same in usual holds; 5 */
+    double leap;       /* smallest step to the end or back, in m; 0.005 */
+    double spike;      /* smallest spike, from 1 kHz on: of a height 0.05 m, of an accelerometer on
+                          the body 0.5 g, and 15 times fr_usual_values.off_neighbours; 0, no spikes */
 } fr_screening_config;
 
 typedef struct fr_screening fr_screening;
@@ -586,6 +703,102 @@ FR_API fr_status fr_screening_push(fr_screening *screening, const fr_real *x, co
 /* End the run, and with it what is open: two spans at most. */
 FR_API fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, size_t capacity,
                                      size_t *written);
+
+/* An accelerometer at the end of its range: three or more identical samples there that cut off a
+ * swing (decision 0012). Memory: a ring of three times `farthest`, or 530 holds, in samples. */
+typedef struct fr_saturation_config {
+    double hold;           /* usual hold in samples, at least 1; 1 */
+    double quantum;        /* smallest step of the sensor in m/s^2; 0 */
+    double range_least;    /* ends of the range in m/s^2; no default */
+    double range_greatest;
+    double rest_mps2;      /* reading at rest; 9.80665 */
+    double outermost_mps2; /* an end is this far from rest at least; 7.3549875 */
+    int32_t farthest;      /* samples beside a run that are looked at, at most; 1000 */
+    int32_t reserved;      /* 0 */
+} fr_saturation_config;
+
+typedef struct fr_saturation fr_saturation;
+
+FR_API fr_saturation_config fr_saturation_defaults(void);
+FR_API size_t fr_saturation_size(const fr_saturation_config *config);
+FR_API fr_status fr_saturation_init(void *memory, size_t size, const fr_saturation_config *config,
+                                    fr_saturation **out);
+/* NaN where a sample is missing. There has to be room for a span of three holds, three samples at
+ * least, each, and one more. */
+FR_API fr_status fr_saturation_push(fr_saturation *saturation, const fr_real *x, size_t count,
+                                    fr_span *spans, size_t capacity, size_t *written);
+/* End the run: FR_OUTPUT_FULL says how much room is needed. */
+FR_API fr_status fr_saturation_finish(fr_saturation *saturation, fr_span *spans, size_t capacity,
+                                      size_t *written);
+
+/* An encoder: the way between counts 25 ms or more apart is judged by the last two sound ways.
+ * Constant memory. */
+typedef struct fr_encoder_screening_config {
+    double rate_hz;          /* samples per second, or ticks of push_timed(); no default */
+    double metres_per_count; /* no default */
+    double usual_m;          /* usual step from sample to sample that has one; 0, a count */
+    double off_m;            /* largest error of a way; 0, a usual step */
+    double knot_s;           /* shortest time of a way; 0.025 */
+} fr_encoder_screening_config;
+
+typedef struct fr_encoder_screening fr_encoder_screening;
+
+FR_API fr_encoder_screening_config fr_encoder_screening_defaults(void);
+FR_API size_t fr_encoder_screening_size(const fr_encoder_screening_config *config);
+FR_API fr_status fr_encoder_screening_init(void *memory, size_t size,
+                                           const fr_encoder_screening_config *config,
+                                           fr_encoder_screening **out);
+/* FR_NO_COUNT where a count is missing. There has to be room for two spans of each count. */
+FR_API fr_status fr_encoder_screening_push(fr_encoder_screening *screening, const int64_t *counts,
+                                           size_t count, fr_span *spans, size_t capacity,
+                                           size_t *written);
+/* The same with the time of each count in ticks, as of an encoder that triggers: FR_GOES_BACK if they
+ * do. */
+FR_API fr_status fr_encoder_screening_push_timed(fr_encoder_screening *screening,
+                                                 const int64_t *counts, const int64_t *ticks,
+                                                 size_t count, fr_span *spans, size_t capacity,
+                                                 size_t *written);
+/* End the run: four spans at most, for which there has to be room. */
+FR_API fr_status fr_encoder_screening_finish(fr_encoder_screening *screening, fr_span *spans,
+                                             size_t capacity, size_t *written);
+
+/* What is usual of a sensor, where no data sheet says it: learned from a drive, and stored. Memory:
+ * 4 bytes for each length of hold. */
+typedef struct fr_usual_config {
+    int32_t longest;  /* holds of this number of samples and more are counted together; 4096 */
+    int32_t reserved; /* 0 */
+} fr_usual_config;
+
+typedef struct fr_usual_values {
+    double least, greatest; /* samples */
+    double quantum;         /* smallest step between different ones; 0 without a step */
+    double hold_of_holds;   /* the median of the holds, in samples; infinite among the longest */
+    double hold_of_samples; /* half of the samples are in holds up to this */
+    double off_neighbours;  /* median distance of a reading from the mean of both beside it, within
+                               4.5 %: 0.826 times the 1-sigma of white noise */
+    double rise;            /* the median of the rises of an encoder, in counts, within 4.5 % */
+    int64_t samples;        /* that are not missing */
+} fr_usual_values;
+
+typedef struct fr_usual fr_usual;
+
+FR_API fr_usual_config fr_usual_defaults(void);
+FR_API size_t fr_usual_size(const fr_usual_config *config);
+FR_API fr_status fr_usual_init(void *memory, size_t size, const fr_usual_config *config,
+                               fr_usual **out);
+/* NaN where a sample is missing. */
+FR_API fr_status fr_usual_push(fr_usual *usual, const fr_real *x, size_t count);
+/* The same of an encoder, for its usual step alone; FR_NO_COUNT where a count is missing. */
+FR_API fr_status fr_usual_push_counts(fr_usual *usual, const int64_t *counts, size_t count);
+/* Of all samples so far and the holds that have ended; FR_WRONG_ORDER before the first. */
+FR_API fr_status fr_usual_value(const fr_usual *usual, fr_usual_values *values);
+
+/* The settings of a search for a sensor of which this is usual; without values, impossible ones. */
+FR_API fr_screening_config fr_screening_of_height(double rate_hz, double metres_per_count,
+                                                  const fr_usual_values *usual);
+FR_API fr_screening_config fr_screening_of_force(double rate_hz, double metres_per_count,
+                                                 const fr_usual_values *usual);
+FR_API fr_saturation_config fr_saturation_of(const fr_usual_values *usual);
 
 /* ---------------------------------------------------------------------------------------------
  * The extended Kalman filter of chapter 6 for one wheel path: inertial unit, height sensor, encoder

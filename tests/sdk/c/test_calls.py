@@ -28,6 +28,9 @@ REQUIRED = {
     "road_prior": {**ENCODER, "interval_m": 0.125},
     "kalman_filter": INSIDE,
     "kalman": {**{f"filter__{name}": value for name, value in INSIDE.items()}, "interval_m": 0.125},
+    "causes": {**ENCODER, "interval_m": 0.125},
+    "saturation": {"range_least": -40.0, "range_greatest": 40.0},
+    "encoder_screening": ENCODER,
 }
 """The settings that have no default."""
 CALLS = {

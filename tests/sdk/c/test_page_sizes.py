@@ -23,6 +23,10 @@ SETTINGS = {
     "kalman_filter": {f"travel__{k}": v for k, v in ENCODER.items()},
     "kalman": {"interval_m": 0.025, **{f"filter__travel__{k}": v for k, v in ENCODER.items()}},
     "road_prior": {**ENCODER, "interval_m": 0.025},
+    "causes": {**ENCODER, "interval_m": 0.025},
+    "saturation": {"range_least": -40.0, "range_greatest": 60.0},
+    "encoder_screening": ENCODER,
+    "usual": {},
 }
 
 

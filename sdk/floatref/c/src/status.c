@@ -75,7 +75,7 @@ fr_status fr_ready(const void *object, uint32_t magic)
     return head.state == FR_STATE_RUNNING ? FR_OK : FR_WRONG_ORDER;
 }
 
-fr_status fr_room(size_t count, const fr_real *y, size_t capacity, size_t *written)
+fr_status fr_room(size_t count, const void *y, size_t capacity, size_t *written)
 {
     if (written == NULL || (count > 0u && y == NULL))
         return FR_NULL_POINTER;

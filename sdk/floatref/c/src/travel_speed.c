@@ -37,6 +37,7 @@ void fr_travel_set(fr_travel *travel, const fr_travel_speed_config *config)
 {
     travel->window = fr_travel_window(config);
     travel->back = config->back;
+    travel->missing = FR_MISSING_REFUSED;
     travel->metres_per_count = FR_R(config->metres_per_count);
     travel->duration_s = FR_R((double)travel->window / config->rate_hz);
 }
@@ -61,9 +62,26 @@ fr_status fr_check_counts(const int64_t *counts, size_t count, int32_t back, int
     return behind != 0 && back == FR_BACK_REFUSED ? FR_GOES_BACK : FR_OK;
 }
 
+fr_status fr_check_known_counts(const int64_t *counts, size_t count, int32_t back, int64_t before)
+{
+    int64_t furthest = before;
+    fr_status status = count > 0u && counts == NULL ? FR_NULL_POINTER : FR_OK;
+    if (count > FR_MOST_SAMPLES)
+        status = FR_TOO_MANY;
+    for (size_t i = 0; status == FR_OK && i < count; i++) {
+        if (counts[i] == FR_NO_COUNT && furthest != INT64_MIN)
+            continue;
+        status = fr_check_counts(counts + i, 1u, back, furthest);
+        furthest = counts[i] > furthest ? counts[i] : furthest;
+    }
+    return status;
+}
+
 fr_status fr_travel_check(const fr_travel *travel, const int64_t *counts, size_t count)
 {
     int64_t furthest = travel->started != 0 ? travel->furthest : INT64_MIN;
+    if (travel->missing == FR_MISSING_BRIDGED)
+        return fr_check_known_counts(counts, count, travel->back, furthest);
     return fr_check_counts(counts, count, travel->back, furthest);
 }
 
@@ -93,9 +111,29 @@ static inline fr_real real_of(int64_t progress)
     return FR_R(progress);
 }
 
-void fr_travel_speeds(const fr_travel *travel, const int64_t *ring, const int64_t *counts,
-                      size_t first, size_t size, fr_real *speed)
+/* Speeds where counts may be missing: while the window has a missing one, the last is repeated. */
+static void speeds_of_known(fr_travel *travel, const int64_t *ring, const int64_t *counts,
+                            size_t first, size_t size, fr_real *speed)
 {
+    size_t run;
+    for (size_t k = 0; k < size; k++) {
+        int64_t now = counts[first + k];
+        int64_t before = *counts_before(travel, ring, counts, first + k, &run);
+        uint32_t left = travel->unknown > 0u ? travel->unknown - 1u : 0u;
+        travel->unknown = now == FR_NO_COUNT ? travel->window + 1u : left;
+        if (travel->unknown == 0u)
+            travel->held = FR_R(now - before) * travel->metres_per_count / travel->duration_s;
+        speed[k] = travel->held;
+    }
+}
+
+void fr_travel_speeds(fr_travel *travel, const int64_t *ring, const int64_t *counts, size_t first,
+                      size_t size, fr_real *speed)
+{
+    if (travel->missing == FR_MISSING_BRIDGED) {
+        speeds_of_known(travel, ring, counts, first, size, speed);
+        return;
+    }
     fr_real scale = travel->metres_per_count, duration_s = travel->duration_s;
     size_t done = 0, run;
     while (done < size) {
