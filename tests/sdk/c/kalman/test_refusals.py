@@ -95,9 +95,10 @@ def test_an_encoder_that_leaps_over_more_than_is_held_is_refused(made_of, late_s
     path, push, drawn = made_of("kalman", late_s=late_s)
     assert push(0, 50)[0] == "FR_OK"
     before = path.made.memory.copy()
-    for leap in (10**6, 2**45):
+    # Also where a long push would have given the points out by its end.
+    for leap, end in ((10**6, 400), (10**6, len(drawn)), (2**45, 400)):
         counts = drawn.counts + leap * (np.arange(len(drawn)) > 60)
-        assert push(50, 400, replace(drawn, counts=counts))[0] == "FR_BAD_SAMPLE"
+        assert push(50, end, replace(drawn, counts=counts))[0] == "FR_BAD_SAMPLE"
     assert (path.made.memory == before).all()
     assert push(50, 400)[0] == "FR_OK"
 

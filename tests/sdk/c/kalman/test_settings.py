@@ -59,9 +59,11 @@ def test_both_builds_take_the_same_memory(double, single):
 
 @pytest.mark.parametrize(
     "changed",
-    [{"lag_s": 4000.0}, {"interval_m": 1e-9}, {"filter__noise__reflection": 0.0}]
-    + [{"filter__late_s": -1.0}, {"filter__noise__roll_rate": np.nan}, {"filter__gnss": 2}]
-    + [{"filter__travel__rate_hz": 1.0}, {"filter__readings": 0}, {"gnss_hz": np.inf}],
+    [
+        *({"lag_s": 4000.0}, {"interval_m": 1e-9}, {"filter__noise__reflection": 0.0}),
+        *({"filter__late_s": -1.0}, {"filter__noise__roll_rate": np.nan}, {"filter__gnss": 2}),
+        *({"filter__travel__rate_hz": 1.0}, {"filter__readings": 0}, {"gnss_hz": np.inf}),
+    ],
 )
 def test_what_cannot_be_has_no_size(double, changed):
     assert size(double, **changed) == 0
