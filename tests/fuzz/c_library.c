@@ -5,15 +5,12 @@
  * Built with the address and the undefined behaviour sanitizer. Memory and arrays have exactly the
  * sizes that the library was given, and a refused call may change neither the object nor an output.
  */
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
-#include "floatref.h"
+#include "c_draws.h"
 
-enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 23, CALLS = 37, KINDS = 14 };
+enum { LARGEST = 1 << 23, CALLS = 64, KINDS = 21 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -29,36 +26,25 @@ typedef union any_config {
     fr_matched_high_pass_config matched_high_pass;
     fr_iri_config iri;
     fr_screening_config screening;
+    fr_road_prior_config road_prior;
+    fr_kalman_filter_config kalman_filter;
+    fr_kalman_config kalman;
+    fr_causes_config causes;
+    fr_saturation_config saturation;
+    fr_encoder_screening_config encoder_screening;
+    fr_usual_config usual;
     fr_level_config level;
 } any_config;
 
-typedef struct arrays {
-    fr_real *x, *h, *f, *s, *y, *z;
-    int64_t *n;
-    fr_span *spans;
-    fr_level_bin *bins;
-    size_t count, capacity, written;
-} arrays;
-
-static uint64_t state;
-
-static uint32_t draw(uint32_t below)
+static void set_kalman(fr_kalman_filter_config *c, double count_m)
 {
-    state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (uint32_t)(state >> 33) % below;
-}
-
-static double odd_number(void)
-{
-    static const double odd[] = {0.0,   -0.0,  1e-300, -1.0, 1e300,     INFINITY, -INFINITY,
-                                 1e-30, 1e-12, 0.5,    2.0,  3.4e38,    1e12,     0.25};
-    uint32_t k = draw(sizeof odd / sizeof *odd + 1);
-    return k == sizeof odd / sizeof *odd ? NAN : odd[k];
-}
-
-static double number(void)
-{
-    return draw(400) == 0 ? odd_number() : (double)draw(2000) / 100.0;
+    c->travel.rate_hz = 50;
+    c->travel.metres_per_count = count_m;
+    c->late_s = draw(2) * 0.5;
+    c->gnss = (int)draw(4) > 0;
+    c->reflects = (int)draw(2);
+    c->missing = (int)draw(2);
+    c->readings = 1 + (int)draw(20);
 }
 
 #define KIND(number, name, line)                                                                \
@@ -95,14 +81,40 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
         KIND(10, matched_high_pass, c.rate_hz = 250; c.missing = (int)draw(2))
         KIND(11, iri, c.interval_m = interval)
         KIND(12, screening, c.rate_hz = 250; c.metres_per_count = count_m;
-             c.spread_mps2 = draw(2) * 0.1)
-        KIND(13, level, c.rate_hz = 20.0 + 20.0 * draw(2); c.metres_per_count = count_m;
+             c.spread_mps2 = draw(2) * 0.1; c.range_greatest = 5.0 * draw(2))
+        KIND(13, road_prior, c.rate_hz = 250; c.metres_per_count = count_m;
+             c.interval_m = interval; c.node_rate_hz = 10.0 + draw(300); c.lag_s = 0.1 + 0.1 * draw(9);
+             c.missing = (int)draw(2); c.back = (int)draw(2); c.fastest_mps = 20.0 + draw(99))
+        KIND(14, kalman_filter, set_kalman(&c, count_m))
+        KIND(15, kalman, set_kalman(&c.filter, count_m); c.interval_m = 10 * interval; c.lag_s = 2;
+             c.gnss_hz = 5; c.fastest_mps = 10)
+        KIND(16, causes, c.rate_hz = 250; c.metres_per_count = count_m; c.interval_m = interval;
+             c.every = 1 + (int)draw(3))
+        KIND(17, saturation, c.range_least = 5 - (int)draw(9); c.range_greatest = 15;
+             c.farthest = 1 + (int)draw(99); c.outermost_mps2 = 1; c.quantum = 0.01 * draw(9))
+        KIND(18, encoder_screening, c.rate_hz = 250; c.metres_per_count = count_m)
+        KIND(19, usual, c.longest = 2 + (int)draw(99))
+        KIND(20, level, c.rate_hz = 20.0 + 20.0 * draw(2); c.metres_per_count = count_m;
              c.fit.front_m = 1.5; c.fit.rear_m = -1.5; c.fit.longest_s = 40.0;
              c.fit.most_travel_m = 200.0; c.fit.most_width = 16 + 8 * (int)draw(8);
              c.paths = 1 + (int)draw(2); c.back = (int)draw(2); c.missing = (int)draw(2))
     default:
         return FR_BAD_CONFIG;
     }
+}
+
+/* A reading of GNSS at a sample near those that come next. */
+static fr_status read_gnss(int smoother, void *o)
+{
+    double values[4], variances[4];
+    int64_t sample = draw(9) ? (int64_t)draw(2500) : -(int64_t)draw(3);
+    double *given = draw(3) ? NULL : variances;
+    for (int i = 0; i < 4; i++) {
+        values[i] = number();
+        variances[i] = draw(3) ? NAN : number();
+    }
+    return smoother ? fr_kalman_push_gnss(o, sample, draw(99) ? values : NULL, given)
+                    : fr_kalman_filter_push_gnss(o, sample, draw(99) ? values : NULL, given);
 }
 
 static double *as_double(const fr_real *x, size_t count, double least, double most)
@@ -167,10 +179,37 @@ static fr_status fit_bins(arrays *a)
     return status;
 }
 
-/* Two wheel paths are twice as many values: those of a push are half of its arrays. */
-static fr_status push_level(void *o, arrays *a)
+/* Levelling: two wheel paths are twice as many values, so a push has half of its arrays. */
+static fr_status call_level(int which, void *o, arrays *a)
 {
-    return fr_level_push(o, a->x, a->h, a->n, a->count / 2, &a->written);
+    fr_level_bin *bins = malloc((a->capacity + 1) * sizeof *bins);
+    int64_t every;
+    fr_status status = FR_OK;
+    switch (which) {
+    case 20: status = fr_level_push(o, a->x, a->h, a->n, a->count / 2, &a->written); break;
+    case 60: status = fr_level_take(o, bins, a->capacity, &a->written); break;
+    case 61: status = fr_level_finish(o, &a->written); break;
+    case 62: status = fr_level_every(o, &every); break;
+    default: status = fit_bins(a); break;
+    }
+    free(bins);
+    return status;
+}
+
+/* One of the calls that take a finished profile, without an object. */
+static fr_status call_profile(int which, arrays *a)
+{
+    fr_validity_config validity = fr_validity_defaults();
+    fr_cross_correlation_config lags = {0.1, 0.5};
+    fr_high_pass_profile_config display = {0.1, number()};
+    fr_agreement agreement;
+    validity.interval_m = number();
+    validity.drift_m = number();
+    switch (which) {
+    case 51: return fr_validity(&validity, a->flags, a->count, a->b, a->capacity, &a->written);
+    case 52: return fr_cross_correlation(&lags, a->x, a->h, a->count, &agreement);
+    default: return fr_high_pass_profile(&display, a->x, a->count, a->y, a->capacity, &a->written);
+    }
 }
 
 /* One of the calls; it may be of another kind of object. */
@@ -179,14 +218,22 @@ static fr_status call(int which, void *o, arrays *a)
     size_t n = a->count, room = a->capacity, *w = &a->written;
     fr_cut_off_config cut_off = fr_cut_off_defaults();
     fr_timer_distortion_config timer = {0.05, 3.576, 25.0};
+    fr_imu imu = {a->imu[0], a->imu[1], a->imu[2], a->imu[3], a->imu[4], a->imu[5]};
+    int64_t left_out[4];
+    fr_usual_values usual;
     switch (which) {
+    case 16: return fr_causes_push(o, a->n, draw(9) ? a->flags : NULL, n, a->b, room, w);
+    case 17: return fr_saturation_push(o, a->x, n, a->spans, room, w);
+    case 18: return fr_encoder_screening_push(o, a->n, n, a->spans, room, w);
+    case 19: return fr_usual_push(o, a->x, n);
+    case 47: return fr_causes_finish(o, a->b, n < room ? n : room);
+    case 48: return fr_saturation_finish(o, a->spans, room, w);
+    case 49: return fr_encoder_screening_finish(o, a->spans, room, w);
+    case 50: return fr_usual_value(o, draw(9) ? &usual : NULL);
+    case 51:
+    case 52:
+    case 53: return call_profile(which, a);
     case 12: return fr_screening_push(o, a->x, draw(9) ? a->h : NULL, a->n, n, a->spans, room, w);
-    case 13: return push_level(o, a);
-    case 32: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
-    case 33: return fr_level_take(o, a->bins, room, w);
-    case 34: return fr_level_finish(o, w);
-    case 35: return fit_bins(a);
-    case 36: return fr_level_every(o, a->n);
     case 30: return fr_screening_finish(o, a->spans, room, w);
     case 31: return fr_high_pass_set_velocity(o, a->x, n, a->y, room, w);
     case 0: return fr_filter_push(o, a->x, n, a->y, room, w);
@@ -201,14 +248,37 @@ static fr_status call(int which, void *o, arrays *a)
     case 9: return fr_local_suppression_push(o, a->x, a->f, n, a->y, room, w);
     case 10: return fr_matched_high_pass_push(o, a->x, a->h, a->f, n, a->y, room, w);
     case 11: return fr_iri_push(o, a->x, n, a->y, room, w);
-    case 14: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
-    case 15: return fr_high_pass_set_finish(o);
-    case 16: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
-    case 17: return fr_adaptive_set_height(o, a->h, a->f, n, a->y, room, w);
-    case 18: return fr_adaptive_set_reverse(o, a->x, a->f, n, a->y, room, w);
-    case 19:
+    case 13: return fr_road_prior_push(o, a->x, a->h, a->n, n, a->y, a->z, a->b, room, w);
+    case 38:
+        return fr_road_prior_push_levelled(o, a->x, a->h, a->n, draw(2) ? a->p : NULL,
+                                           draw(2) ? a->p : NULL, n, a->y, a->z, a->b, room, w);
+    case 39: return fr_road_prior_finish(o, a->y, a->z, a->b, room, w);
+    case 40: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
+    case 32: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
+    case 33: return fr_high_pass_set_finish(o);
+    case 14:
+        if (draw(2))
+            return read_gnss(0, o);
+        return fr_kalman_filter_push(o, &imu, a->imu[6], a->n, n, a->heights, room, w);
+    case 15:
+        if (draw(2))
+            return read_gnss(1, o);
+        return fr_kalman_push(o, &imu, a->imu[6], a->n, n, a->y, a->z, a->b, room, w);
+    case 34: return fr_kalman_filter_finish(o, a->heights, room, w);
+    case 35: return fr_kalman_finish(o, a->y, a->z, a->b, room, w);
+    case 36: return fr_kalman_filter_left_out(o, left_out);
+    case 37: return fr_kalman_left_out(o, draw(9) ? left_out : NULL);
+    case 43: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
+    case 44: return fr_adaptive_set_height(o, a->h, a->f, n, a->y, room, w);
+    case 45: return fr_adaptive_set_reverse(o, a->x, a->f, n, a->y, room, w);
+    case 46:
         return fr_adaptive_set_reverse_over_distance(o, number(), a->x, a->f, n, a->y, room, w);
-    case 20: return fr_adaptive_set_finish(o);
+    case 59: return fr_adaptive_set_finish(o);
+    case 20:
+    case 60:
+    case 61:
+    case 62:
+    case 63: return call_level(which, o, a);
     case 21: return fr_adaptive_finish(o, a->x, a->f, n, a->y, room, w);
     case 22: return fr_iri_finish(o, a->y, room, w);
     case 23: return fr_iri_value(o, a->capacity > 0 ? a->y : NULL);
@@ -221,47 +291,6 @@ static fr_status call(int which, void *o, arrays *a)
     }
 }
 
-static fr_real *drawn_reals(size_t count)
-{
-    fr_real *x = malloc(count * sizeof *x + (count == 0));
-    for (size_t i = 0; i < count; i++)
-        x[i] = (fr_real)number();
-    return x;
-}
-
-static arrays drawn_arrays(int64_t *counts)
-{
-    arrays a = {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, draw(4) ? draw(MOST) : draw(3), 0, 0};
-    a.capacity = draw(6) ? POINTS : draw(MOST);
-    a.x = drawn_reals(a.count);
-    a.h = drawn_reals(a.count);
-    a.f = drawn_reals(a.count);
-    a.s = drawn_reals(a.count);
-    a.y = drawn_reals(a.capacity);
-    a.z = drawn_reals(a.capacity);
-    a.bins = malloc(a.capacity * sizeof *a.bins + (a.capacity == 0));
-    a.spans = malloc(a.capacity * sizeof *a.spans + (a.capacity == 0));
-    a.n = malloc(a.count * sizeof *a.n + (a.count == 0));
-    for (size_t i = 0; i < a.count; i++)
-        a.n[i] = *counts += draw(5000) == 0 ? (draw(2) ? -300000 : 1) * ((int64_t)1 << draw(33))
-                                            : (int64_t)draw(60);
-    *counts = *counts > ((int64_t)1 << 52) || *counts < -((int64_t)1 << 52) ? 0 : *counts;
-    return a;
-}
-
-static void release(arrays *a)
-{
-    free(a->x);
-    free(a->h);
-    free(a->f);
-    free(a->s);
-    free(a->y);
-    free(a->z);
-    free(a->n);
-    free(a->spans);
-    free(a->bins);
-}
-
 static int fail(const char *what, int kind, int which)
 {
     printf("%s: kind %d, call %d\n", what, kind, which);
@@ -272,8 +301,8 @@ static int fail(const char *what, int kind, int which)
 static int push_once(int kind, void **object, size_t size, int64_t *counts, long *done)
 {
     int which = draw(8) ? kind : (int)draw(CALLS), wrong = 0;
-    if (kind == 13 && draw(4) == 0)
-        which = draw(9) ? 33 : 34;
+    if (kind == 20 && draw(4) == 0)
+        which = draw(9) ? 60 : 61;
     arrays a = drawn_arrays(counts);
     unsigned char *before = malloc(size);
     fr_real *y = malloc(a.capacity * sizeof *y + (a.capacity == 0));
@@ -311,7 +340,7 @@ static int one_object(long *done, long *objects)
     any_config config;
     size_t size = 0, needed;
     int kind = draw(100) ? (int)draw(KINDS - 1) : KINDS - 1; /* whose memory is 8 MB */
-    int wrong = 0, pushes = kind == 13 ? 60 : 12;
+    int wrong = 0;
     void *object, *out = NULL;
     int64_t counts = draw(1000);
     memset(&config, 0, sizeof config);
@@ -326,7 +355,7 @@ static int one_object(long *done, long *objects)
     if (of_kind(kind, 2, &config, &needed, object, &out) != (size > 0 ? FR_OK : FR_BAD_CONFIG))
         wrong = fail("size and init disagree", kind, 0);
     *objects += size > 0;
-    for (int i = 0; size > 0 && !wrong && i < pushes; i++)
+    for (int i = 0; size > 0 && !wrong && i < (kind == 20 ? 60 : 12); i++)
         wrong = push_once(kind, &object, size, &counts, done);
     free(object);
     return wrong;

@@ -67,6 +67,12 @@ static double place_at(struct channel *channel, double time)
     return (double)channel->stamp + (time - before) / (after - before);
 }
 
+void channel_rewind(struct channel *channel)
+{
+    channel->stamp = 0;
+    channel->left = channel->right = -1;
+}
+
 struct reading channel_read(struct channel *channel, long index, double time)
 {
     if (channel->same_grid)

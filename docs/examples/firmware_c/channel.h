@@ -62,6 +62,9 @@ bool channel_steady(struct channel *channel, struct clock *clock, struct failure
 /* Find whether the channel's samples are at the times of those of `clock`. */
 void channel_align(struct channel *channel, const struct clock *clock);
 
+/* Go back to the first sample; spans may have been added. */
+void channel_rewind(struct channel *channel);
+
 /* The value of the channel at sample `index` of `clock`, at `time`. Times must not go back. */
 struct reading channel_read(struct channel *channel, long index, double time);
 

@@ -3,6 +3,7 @@
 
 #include <dirent.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@
 
 enum { MOST_FILES = 200, LONGEST_NAME = 256, LARGEST_BYTES = 1 << 20 };
 
-static const char *const PRECISION = sizeof(real) == sizeof(double) ? "float64" : "float32";
+static const char *const PRECISION = sizeof(fr_real) == sizeof(double) ? "float64" : "float32";
 
 static int by_name(const void *a, const void *b)
 {
@@ -38,7 +39,7 @@ static int list(const char *folder, char names[][LONGEST_NAME])
     return count;
 }
 
-static bool load(const char *folder, const char *name, struct json *document)
+static bool read_vector(const char *folder, const char *name, struct json *document)
 {
     static char text[LARGEST_BYTES + 1];
     char path[2 * LONGEST_NAME];
@@ -112,7 +113,11 @@ static bool replay(const char *name, struct json document, const struct stage *s
         return false;
     }
     memset(&made, 0, sizeof made);
-    stage->apply(settings, &in, &made);
+    fr_status status = stage->apply(settings, &in, &made);
+    if (status != FR_OK) {
+        printf("FAIL  %-36s %s\n", name, fr_status_text(status));
+        return false;
+    }
     error = worst_error(&made, &expected);
     printf("%s  %-36s error %.1e, tolerance %.0e (%s)\n", error <= tolerance ? "pass" : "FAIL",
            name, error, tolerance, PRECISION);
@@ -125,10 +130,7 @@ static const struct stage *stage_of(struct json document)
     struct json value;
     if (json_member(document, "stage", &value))
         json_text(value, name, sizeof name);
-    for (int i = 0; i < STAGE_COUNT; i++)
-        if (strcmp(STAGES[i].name, name) == 0)
-            return &STAGES[i];
-    return NULL;
+    return stage_named(name);
 }
 
 int main(int argc, char **argv)
@@ -142,7 +144,7 @@ int main(int argc, char **argv)
     for (int i = 0; i < count; i++) {
         struct json document;
         const struct stage *stage = NULL;
-        if (!load(argv[1], names[i], &document)) {
+        if (!read_vector(argv[1], names[i], &document)) {
             printf("FAIL  %-36s is not a JSON object\n", names[i]);
             failed++;
         } else if ((stage = stage_of(document)) == NULL) {
@@ -153,7 +155,7 @@ int main(int argc, char **argv)
             failed++;
         }
     }
-    printf("%d passed, %d failed, %d of stages that this firmware does not have\n", passed, failed,
+    printf("%d passed, %d failed, %d of stages that the library does not have\n", passed, failed,
            others);
     return failed == 0 && passed > 0 ? 0 : 1;
 }

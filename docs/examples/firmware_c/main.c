@@ -1,4 +1,4 @@
-/* A profiler's firmware under test: section 5.7 in time, its backward pass over distance. */
+/* The firmware as a device of the judge. */
 #include <stddef.h>
 
 #include "protocol.h"
@@ -6,6 +6,6 @@
 
 int main(void)
 {
-    struct device device = {"firmware_c", "1.0", "temporal", run, NULL};
+    struct device device = {"firmware_c", "2.0", "temporal", run, NULL};
     return serve(&device);
 }

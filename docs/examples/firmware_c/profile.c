@@ -43,7 +43,7 @@ static void write_double(FILE *file, double value)
 }
 
 /* The two files of wheel path `i`, named by its number, since a track may have any name. */
-static bool write_track(const char *folder, const struct points *points, int i,
+static bool write_track(const char *folder, const struct path *path, int i,
                         struct failure *failure)
 {
     char name[32];
@@ -51,32 +51,33 @@ static bool write_track(const char *folder, const struct points *points, int i,
     FILE *file = create(folder, name, failure);
     if (file == NULL)
         return false;
-    for (long k = 0; k < points->count; k++)
-        write_double(file, (double)points->elevation[i][k]);
+    for (size_t k = 0; k < path->count; k++)
+        write_double(file, (double)path->elevation[k]);
     if (!finish(file, name, failure))
         return false;
     snprintf(name, sizeof name, "%d.valid.u8", i);
     file = create(folder, name, failure);
     if (file == NULL)
         return false;
-    fwrite(points->flags[i], 1, (size_t)points->count, file);
+    fwrite(path->valid, 1, path->count, file);
     return finish(file, name, failure);
 }
 
 static bool write_document(const char *folder, const struct recording *recording,
-                           const struct points *points, struct failure *failure)
+                           double start_m, struct failure *failure)
 {
+    fr_cut_off_config cut_off = fr_cut_off_defaults();
     FILE *file = create(folder, "profile.json", failure);
     if (file == NULL)
         return false;
-    fprintf(file, "{\"format\": \"floatref-profile/1\", \"interval_m\": %.17g, ", points->interval_m);
-    fprintf(file, "\"start_m\": %.17g,\n \"pipeline\": \"firmware_c\",\n ", points->start_m);
+    fprintf(file, "{\"format\": \"floatref-profile/1\", \"interval_m\": %.17g, ", recording->interval_m);
+    fprintf(file, "\"start_m\": %.17g,\n \"pipeline\": \"firmware_c\",\n ", start_m);
     fprintf(file, "\"settings\": {\"low_speed_cutoff_hz\": %.17g, \"cutoff_wavelength_m\": %.17g, ",
-            LOW_SPEED_HZ, CUTOFF_WAVELENGTH_M);
+            cut_off.low_speed_hz, cut_off.wavelength_m);
     fprintf(file, "\"transition_speed_mps\": %.17g, \"transition_steepness\": %.17g},\n ",
-            TRANSITION_MPS, TRANSITION_STEEPNESS);
-    fprintf(file, "\"provenance\": {\"real_bytes\": %d},\n \"tracks\": [", (int)sizeof(real));
-    for (int i = 0; i < points->tracks; i++) {
+            cut_off.transition_speed_mps, cut_off.steepness_s_per_m);
+    fprintf(file, "\"provenance\": {\"real_bytes\": %d},\n \"tracks\": [", (int)sizeof(fr_real));
+    for (int i = 0; i < recording->tracks; i++) {
         fprintf(file, "%s\n  {\"name\": ", i > 0 ? "," : "");
         json_write_text(file, recording->track[i]);
         fprintf(file, ", \"elevation_file\": \"%d.f64\", \"valid_file\": \"%d.valid.u8\"}", i, i);
@@ -86,12 +87,12 @@ static bool write_document(const char *folder, const struct recording *recording
 }
 
 bool profile_write(const char *path, const struct recording *recording,
-                   const struct points *points, struct failure *failure)
+                   const struct path *const *paths, double start_m, struct failure *failure)
 {
     if (make_folder(path) != 0)
         return fail(failure, "%s: cannot be made: %s", path, strerror(errno));
-    for (int i = 0; i < points->tracks; i++)
-        if (!write_track(path, points, i, failure))
+    for (int i = 0; i < recording->tracks; i++)
+        if (!write_track(path, paths[i], i, failure))
             return false;
-    return write_document(path, recording, points, failure);
+    return write_document(path, recording, start_m, failure);
 }

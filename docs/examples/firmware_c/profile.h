@@ -2,11 +2,10 @@
 #ifndef PROFILE_H
 #define PROFILE_H
 
-#include "points.h"
 #include "recording.h"
 
-/* Make the folder `path` with the contents of `points`; its flags are 1, valid, or 0. */
+/* Make the folder `path` with the points of all wheel paths, the first one at `start_m`. */
 bool profile_write(const char *path, const struct recording *recording,
-                   const struct points *points, struct failure *failure);
+                   const struct path *const *paths, double start_m, struct failure *failure);
 
 #endif

@@ -3,6 +3,7 @@
 #define RECORDING_H
 
 #include "failure.h"
+#include "firmware.h"
 
 enum {
     MOST_TRACKS = 64,
@@ -10,8 +11,6 @@ enum {
     TRACK_SIZE = 200, /* 48 characters of up to four bytes */
     FILE_SIZE = 1024  /* 255 characters of up to four bytes */
 };
-
-enum quantity { VERTICAL_SPECIFIC_FORCE, HEIGHT, DISTANCE, QUANTITIES };
 
 extern const char *const QUANTITY_NAMES[QUANTITIES];
 extern const double LARGEST[QUANTITIES]; /* largest possible samples */

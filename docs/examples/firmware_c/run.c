@@ -4,30 +4,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "channel.h"
-#include "damage.h"
-#include "points.h"
+#include "memory.h"
 #include "profile.h"
-#include "track.h"
-#include "validity.h"
+#include "search.h"
 #include "window.h"
 
 static const double SLOWEST_HZ = 20.0; /* of an accelerometer */
+static const double MOST_POINTS = 5e7, TIE = 1e-6;
+static const double COUNTS_OF_INTERVAL = 16777216.0; /* a float64 distance as counts */
+
+enum { MISSING = FR_CAUSE_MISSING, DRIFT = FR_CAUSE_DRIFT, SLOW = FR_CAUSE_SLOW };
 
 /* A wheel path with its two sensors. */
-struct path {
+struct wheel_path {
     struct channel force, height;
-    struct track track;
+    struct path path;
 };
 
 struct session {
     struct recording recording;
     struct channel distance;
-    struct path *paths;
+    struct wheel_path *paths;
     struct clock clock; /* of the first accelerometer, without its holes */
-    struct drive drive;
-    struct points points;
-    long first, last; /* the samples of the clock that all channels cover */
+    double metres_per_count, start_m;
+    long first, last;   /* the samples of the clock that all channels cover */
 };
 
 static bool open_channel(struct session *session, struct channel *channel, enum quantity quantity,
@@ -56,17 +56,17 @@ static bool open_channels(struct session *session, struct failure *failure)
 }
 
 /* Search all channels for samples that measure nothing. */
-static bool find_damage(struct session *session, struct failure *failure)
+static bool search_all(struct session *session, struct failure *failure)
 {
-    if (!damaged_distance(&session->distance, failure))
-        return false;
-    for (int i = 0; i < session->recording.tracks; i++) {
-        struct path *path = &session->paths[i];
-        if (!damaged_force(&path->force, failure) ||
-            !damaged_height(&path->height, &path->force, failure))
-            return false;
+    struct channel *distance = &session->distance;
+    double count_m = session->metres_per_count = session->recording.interval_m / COUNTS_OF_INTERVAL;
+    bool done = search(distance, DISTANCE, distance, NULL, count_m, failure);
+    for (int i = 0; done && i < session->recording.tracks; i++) {
+        struct wheel_path *path = &session->paths[i];
+        done = search(&path->force, VERTICAL_SPECIFIC_FORCE, distance, NULL, count_m, failure) &&
+               search(&path->height, HEIGHT, distance, &path->force, count_m, failure);
     }
-    return true;
+    return done;
 }
 
 /* Channel `i` of all: the distance, then force and height of each wheel path; NULL behind them. */
@@ -76,7 +76,7 @@ static struct channel *channel_of(struct session *session, int i)
         return &session->distance;
     if (i > 2 * session->recording.tracks)
         return NULL;
-    struct path *path = &session->paths[(i - 1) / 2];
+    struct wheel_path *path = &session->paths[(i - 1) / 2];
     return i % 2 == 1 ? &path->force : &path->height;
 }
 
@@ -107,52 +107,110 @@ static double time_of(const struct session *session, long index)
     return session->clock.start_s + (double)index / session->clock.rate_hz;
 }
 
-/* The end of the distance; its last samples may be missing. */
+/* The farthest distance; the last samples may be missing. */
 static double length_of(struct session *session)
 {
-    double from = channel_read(&session->distance, session->first,
-                               time_of(session, session->first)).value;
-    double farthest = from;
+    double farthest = session->start_m;
     for (long i = 0; i < session->distance.values.count; i++)
         farthest = fmax(farthest, window_at(&session->distance.values, i));
-    return farthest - from;
+    return farthest - session->start_m;
 }
 
-static unsigned flags_of(struct reading reading, unsigned lost)
+/* The first sample whose distance is known, and memory for the points behind it. */
+static bool begin_paths(struct session *session, struct failure *failure)
 {
-    return (reading.missing ? MISSING : 0u) | (reading.lost ? lost : 0u);
-}
-
-/* Process every sample by the drive, the wheel paths and the projection. */
-static void process(struct session *session)
-{
-    real elevation[MOST_TRACKS];
-    unsigned flags[MOST_TRACKS];
-    for (long i = session->first; i <= session->last; i++) {
-        double time = time_of(session, i);
-        struct reading distance = channel_read(&session->distance, i, time);
-        struct sample sample = {drive_step(&session->drive, distance.value), elevation, flags};
-        unsigned shared = sample.motion.marks | flags_of(distance, SLOW);
-        for (int k = 0; k < session->recording.tracks; k++) {
-            struct path *path = &session->paths[k];
-            struct reading force = channel_read(&path->force, i, time);
-            struct reading height = channel_read(&path->height, i, time);
-            elevation[k] = track_step(&path->track, force.value, height.value, sample.motion.c);
-            flags[k] = shared | flags_of(force, DRIFT) | flags_of(height, 0);
-        }
-        points_step(&session->points, &sample);
+    double interval_m = session->recording.interval_m, start_m = NAN;
+    for (; session->first < session->last; session->first++) {
+        start_m = channel_read(&session->distance, session->first, time_of(session, session->first)).value;
+        if (!isnan(start_m))
+            break;
     }
-    points_finish(&session->points);
+    session->start_m = start_m;
+    double length_m = length_of(session);
+    if (!(length_m >= interval_m))
+        return fail(failure, "channel distance: %g m are less than the profile interval", length_m);
+    if (length_m > MOST_POINTS * interval_m)
+        return fail(failure, "channel distance: %g m are too many points", length_m);
+    for (int i = 0; i < session->recording.tracks; i++) {
+        struct path *path = &session->paths[i].path;
+        path->rate_hz = session->clock.rate_hz;
+        path->interval_m = interval_m;
+        path->metres_per_count = session->metres_per_count;
+        path->room = (size_t)(length_m / interval_m + 2 * TIE) + 1;
+        path->elevation = run_memory(path->room * sizeof *path->elevation);
+        path->speed = run_memory(path->room * sizeof *path->speed);
+        path->valid = run_memory(path->room);
+        if (path->elevation == NULL || path->speed == NULL || path->valid == NULL)
+            return fail(failure, "out of memory for %g m", length_m);
+        fr_status status = begin(path);
+        if (status != FR_OK)
+            return fail(failure, "track %s: %s", session->recording.track[i], fr_status_text(status));
+    }
+    return true;
+}
+
+static uint8_t causes_of(struct reading reading, unsigned lost)
+{
+    return (uint8_t)((reading.missing ? MISSING : 0u) | (reading.lost ? lost : 0u));
+}
+
+/* Read a sample of the encoder, as counts from the beginning. */
+static int64_t count_of(struct session *session, long index, uint8_t *causes)
+{
+    struct reading distance = channel_read(&session->distance, index, time_of(session, index));
+    *causes = causes_of(distance, SLOW);
+    if (isnan(distance.value))
+        return FR_NO_COUNT;
+    return (int64_t)rint((distance.value - session->start_m) / session->metres_per_count);
+}
+
+/* Give a chunk of all wheel paths to the firmware. */
+static bool process_chunk(struct session *session, long first, size_t count, struct failure *failure)
+{
+    static fr_real force[CHUNK], height[CHUNK];
+    static int64_t counts[CHUNK];
+    static uint8_t shared[CHUNK], causes[CHUNK];
+    for (size_t k = 0; k < count; k++)
+        counts[k] = count_of(session, first + (long)k, &shared[k]);
+    for (int i = 0; i < session->recording.tracks; i++) {
+        struct wheel_path *path = &session->paths[i];
+        for (size_t k = 0; k < count; k++) {
+            double time = time_of(session, first + (long)k);
+            struct reading a = channel_read(&path->force, first + (long)k, time);
+            struct reading h = channel_read(&path->height, first + (long)k, time);
+            force[k] = (fr_real)a.value;
+            height[k] = (fr_real)h.value;
+            causes[k] = shared[k] | causes_of(a, DRIFT) | causes_of(h, 0);
+        }
+        fr_status status = take(&path->path, force, height, counts, causes, count);
+        if (status != FR_OK)
+            return fail(failure, "track %s, at %g s: %s", session->recording.track[i],
+                        time_of(session, first), fr_status_text(status));
+    }
+    return true;
+}
+
+static bool process(struct session *session, struct failure *failure)
+{
+    bool done = true;
+    for (long i = session->first; done && i <= session->last; i += CHUNK) {
+        long count = session->last - i + 1 < CHUNK ? session->last - i + 1 : CHUNK;
+        done = process_chunk(session, i, (size_t)count, failure);
+    }
+    for (int i = 0; done && i < session->recording.tracks; i++) {
+        fr_status status = end(&session->paths[i].path);
+        done = status == FR_OK ||
+               fail(failure, "track %s: %s", session->recording.track[i], fr_status_text(status));
+    }
+    return done;
 }
 
 static bool deliver(struct session *session, const char *profile, struct failure *failure)
 {
-    struct points *points = &session->points;
-    for (int i = 0; i < points->tracks; i++) {
-        backward_passes(points->elevation[i], points->speed, points->count, points->interval_m);
-        trust(points->flags[i], points->count, points->interval_m, &REACH);
-    }
-    return profile_write(profile, &session->recording, points, failure);
+    const struct path *paths[MOST_TRACKS];
+    for (int i = 0; i < session->recording.tracks; i++)
+        paths[i] = &session->paths[i].path;
+    return profile_write(profile, &session->recording, paths, session->start_m, failure);
 }
 
 static void close_session(struct session *session)
@@ -160,9 +218,15 @@ static void close_session(struct session *session)
     struct channel *channel;
     for (int i = 0; session->paths != NULL && (channel = channel_of(session, i)) != NULL; i++)
         channel_close(channel);
-    points_close(&session->points);
-    drive_close(&session->drive);
+    memory_release();
     free(session->paths);
+}
+
+static bool check_rate(const struct session *session, struct failure *failure)
+{
+    double rate_hz = session->clock.rate_hz;
+    return (rate_hz >= SLOWEST_HZ && rate_hz <= FASTEST_HZ) ||
+           fail(failure, "%g Hz are no rate of an accelerometer", rate_hz);
 }
 
 bool run(const char *recording, const char *profile, struct failure *failure)
@@ -170,22 +234,10 @@ bool run(const char *recording, const char *profile, struct failure *failure)
     static struct session session;
     memset(&session, 0, sizeof session);
     bool done = recording_read(&session.recording, recording, failure) &&
-                open_channels(&session, failure) && find_damage(&session, failure) &&
-                align(&session, failure);
-    if (done) {
-        double rate_hz = session.clock.rate_hz;
-        for (int i = 0; i < session.recording.tracks; i++)
-            track_open(&session.paths[i].track, rate_hz);
-        done = (rate_hz >= SLOWEST_HZ && rate_hz <= FASTEST_HZ) ||
-               fail(failure, "%g Hz are no rate of an accelerometer", rate_hz);
-        done = done && drive_open(&session.drive, rate_hz, failure) &&
-               points_open(&session.points, session.recording.tracks, session.recording.interval_m,
-                           length_of(&session), failure);
-    }
-    if (done) {
-        process(&session);
-        done = deliver(&session, profile, failure);
-    }
+                open_channels(&session, failure) && check_rate(&session, failure) &&
+                search_all(&session, failure) && align(&session, failure) &&
+                begin_paths(&session, failure) && process(&session, failure) &&
+                deliver(&session, profile, failure);
     close_session(&session);
     return done;
 }

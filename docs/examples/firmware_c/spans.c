@@ -6,11 +6,6 @@ enum { FIRST_ROOM = 32 };
 
 bool spans_add(struct spans *spans, long first, long behind, struct failure *failure)
 {
-    struct span *last = spans->count > 0 ? &spans->span[spans->count - 1] : NULL;
-    if (last != NULL && first <= last->behind) {
-        last->behind = behind > last->behind ? behind : last->behind;
-        return true;
-    }
     if (spans->count == spans->room) {
         long room = spans->room > 0 ? 2 * spans->room : FIRST_ROOM;
         struct span *grown = realloc(spans->span, (size_t)room * sizeof *grown);
@@ -21,6 +16,28 @@ bool spans_add(struct spans *spans, long first, long behind, struct failure *fai
     }
     spans->span[spans->count++] = (struct span){first, behind};
     return true;
+}
+
+static int in_order(const void *a, const void *b)
+{
+    const struct span *p = a, *q = b;
+    return (p->first > q->first) - (p->first < q->first);
+}
+
+void spans_settle(struct spans *spans)
+{
+    long kept = 0;
+    if (spans->count > 0)
+        qsort(spans->span, (size_t)spans->count, sizeof *spans->span, in_order);
+    for (long k = 0; k < spans->count; k++) {
+        struct span *last = kept > 0 ? &spans->span[kept - 1] : NULL, here = spans->span[k];
+        if (last != NULL && here.first <= last->behind)
+            last->behind = here.behind > last->behind ? here.behind : last->behind;
+        else
+            spans->span[kept++] = here;
+    }
+    spans->count = kept;
+    spans->at = 0;
 }
 
 bool spans_hold(struct spans *spans, long index)

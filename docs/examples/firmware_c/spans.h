@@ -14,8 +14,11 @@ struct spans {
     long count, room, at;
 };
 
-/* Add samples `first` to `behind - 1`; they must not begin before an earlier stretch. */
+/* Add samples `first` to `behind - 1`. */
 bool spans_add(struct spans *spans, long first, long behind, struct failure *failure);
+
+/* Put all in order and join those that touch, before they are asked for. */
+void spans_settle(struct spans *spans);
 
 /* Whether sample `index` is in one of them; fast for one index after the other. */
 bool spans_hold(struct spans *spans, long index);

@@ -3,6 +3,7 @@
 import json
 import shutil
 import subprocess
+import sys
 import warnings
 from itertools import count
 from pathlib import Path
@@ -78,9 +79,8 @@ def build(tmp_path_factory):
             folder = tmp_path_factory.mktemp("firmware") / "source"
             shutil.copytree(SOURCE, folder)
             (folder / "counted.h").write_text(COUNTED, encoding="ascii")
-            found = subprocess.run(
-                ["make", "-s", "-j2", target, *flags], cwd=folder, capture_output=True, text=True
-            )
+            command = ["make", "-s", "-j2", target, f"PYTHON={sys.executable}", *flags]
+            found = subprocess.run(command, cwd=folder, capture_output=True, text=True)
             assert (found.returncode, found.stderr) == (0, ""), found.stderr
             made[target, *flags] = folder / target
         return made[target, *flags]

@@ -31,6 +31,13 @@ def test_every_piece_of_c_on_the_page_is_in_the_sources():
         assert piece in sources
 
 
+def test_the_signal_path_is_one_file_of_the_length_that_the_pages_state():
+    lines = len((SOURCE / "firmware.c").read_text(encoding="ascii").splitlines())
+    assert lines <= 150
+    for page in (PAGE, SOURCE / "README.md"):
+        assert f"{lines} lines" in " ".join(page.read_text(encoding="utf-8").split())
+
+
 def test_the_readme_lists_every_source_file_once():
     readme = (SOURCE / "README.md").read_text(encoding="utf-8")
     files = re.findall(r"`(\w+\.c)`", re.search(r"\| file .*?\n\n", readme, re.S)[0])

@@ -113,7 +113,9 @@ def test_gaps_and_clocks_are_taken_as_the_pipeline_takes_them(
     start, drives, change, expected, assert_same, tmp_path
 ):
     recording = changed(drives["stop"], change)
-    assert_same(start().profile_of(recording, tmp_path / "run"), expected(recording))
+    # Distances become whole counts of 0.3 nm; where the run begins between two, all are rounded.
+    within_m = 1e-8 if change is starting_late else 1e-9
+    assert_same(start().profile_of(recording, tmp_path / "run"), expected(recording), within_m)
 
 
 def test_single_precision_is_within_a_fifth_of_a_millimetre(
@@ -124,11 +126,10 @@ def test_single_precision_is_within_a_fifth_of_a_millimetre(
 
 
 def test_each_fault_shows_where_it_must_and_only_there(start, drives, expected, tmp_path):
+    flags = {1: "BROKEN=1", 2: "STAGE=basic", 3: "BROKEN=2"}
     made = {
-        (fault, drive): start(f"BROKEN={fault}").profile_of(
-            drives[drive], tmp_path / f"{fault}-{drive}"
-        )
-        for fault in (1, 2, 3)
+        (fault, drive): start(flag).profile_of(drives[drive], tmp_path / f"{fault}-{drive}")
+        for fault, flag in flags.items()
         for drive in ("constant", "stop")
     }
     roughness = {key: iri(p.tracks[0].elevation, p.interval_m) for key, p in made.items()}

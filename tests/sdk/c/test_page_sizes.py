@@ -22,6 +22,13 @@ SETTINGS = {
     "screening": ENCODER,
     "level_fit": {"front_m": 1.5, "rear_m": -1.5},
     "level": {**ENCODER, "fit__front_m": 1.5, "fit__rear_m": -1.5},
+    "kalman_filter": {f"travel__{k}": v for k, v in ENCODER.items()},
+    "kalman": {"interval_m": 0.025, **{f"filter__travel__{k}": v for k, v in ENCODER.items()}},
+    "road_prior": {**ENCODER, "interval_m": 0.025},
+    "causes": {**ENCODER, "interval_m": 0.025},
+    "saturation": {"range_least": -40.0, "range_greatest": 60.0},
+    "encoder_screening": ENCODER,
+    "usual": {},
 }
 
 

@@ -35,11 +35,7 @@ fr_adaptive_config fr_adaptive_defaults(void)
 {
     fr_adaptive_config config = {{0.0, 0.0, 0.0, FR_BACK_REFUSED},
                                  {0.0, 0.0, 0.0, 0.0},
-                                 0.0,
-                                 0.0,
-                                 FR_MISSING_REFUSED,
-                                 FR_TANGENT_EXACT,
-                                 1};
+                                 0.0, 0.0, FR_MISSING_REFUSED, FR_TANGENT_EXACT, 1};
     config.travel = fr_travel_speed_defaults();
     config.cut_off = fr_cut_off_defaults();
     return config;
@@ -77,6 +73,7 @@ fr_status fr_adaptive_init(void *memory, size_t size, const fr_adaptive_config *
     adaptive->schedule = fr_schedule_of(&config->cut_off);
     adaptive->tangent = fr_tangent_of(1.0 / config->travel.rate_hz, config->tangent);
     fr_travel_set(&adaptive->travel, &config->travel);
+    adaptive->travel.missing = config->missing;
     fr_points_set(&adaptive->points, config->interval_m, config->travel.metres_per_count);
     *out = adaptive;
     return FR_OK;
@@ -189,11 +186,12 @@ static void run_adaptive(fr_adaptive *adaptive, const fr_real *a, const fr_real 
 static fr_status check_cut_offs(fr_adaptive *adaptive, const int64_t *counts, size_t count)
 {
     const int64_t *ring = (const int64_t *)FR_BEHIND(adaptive, fr_adaptive);
+    fr_travel ahead = adaptive->travel;
     fr_status status = FR_OK;
     fr_real speed[FR_BLOCK];
     for (size_t done = 0; status == FR_OK && done < count; done += FR_BLOCK) {
         size_t size = count - done < FR_BLOCK ? count - done : FR_BLOCK;
-        fr_travel_speeds(&adaptive->travel, ring, counts, done, size, speed);
+        fr_travel_speeds(&ahead, ring, counts, done, size, speed);
         status = fr_check_speeds(&adaptive->schedule, &adaptive->tangent, speed, size,
                                  FR_MISSING_REFUSED);
     }

@@ -177,7 +177,7 @@ static fr_status check_queue(const fr_level *level, size_t count)
     return ready > bins_in((double)LV_SPARE_S / 4.0, level->step_s) ? FR_OUTPUT_FULL : FR_OK;
 }
 
-static fr_status check_push(const fr_level *level, const fr_real *force, const fr_real *height,
+static fr_status check_level_push(const fr_level *level, const fr_real *force, const fr_real *height,
                             const int64_t *counts, size_t count, const size_t *ready)
 {
     fr_status status = fr_ready(level, LEVEL_MAGIC);
@@ -203,7 +203,7 @@ fr_status fr_level_push(fr_level *level, const fr_real *force, const fr_real *he
                         const int64_t *counts, size_t count, size_t *ready)
 {
     lv_arrays a;
-    fr_status status = check_push(level, force, height, counts, count, ready);
+    fr_status status = check_level_push(level, force, height, counts, count, ready);
     if (status == FR_OUTPUT_FULL)
         *ready = (size_t)(level->ready - level->taken);
     if (status != FR_OK)

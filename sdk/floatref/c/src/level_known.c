@@ -72,7 +72,7 @@ void fr_lv_start(lv_work *w)
         w->bends[j] = LV_FIRST_BEND * w->config->bends_per_m;
 }
 
-static void fill(lv_work *w, int32_t group, double sigma)
+static void fill_group(lv_work *w, int32_t group, double sigma)
 {
     for (int32_t row = w->begin[group]; row < w->begin[group + 1]; row++)
         w->sigma[row] = sigma;
@@ -115,8 +115,8 @@ void fr_lv_fix_sigmas(lv_work *w)
         double mean;
         fr_lv_prior(w, i, &column, &mean, w->sigma + w->begin[LV_PRIORS] + i);
     }
-    fill(w, LV_RISES, sqrt(w->config->road_m * LV_SPACING_M));
-    fill(w, LV_MEANS, LV_SLOPE * sqrt(LV_SLOPE_REACH_M / LV_SPACING_M));
+    fill_group(w, LV_RISES, sqrt(w->config->road_m * LV_SPACING_M));
+    fill_group(w, LV_MEANS, LV_SLOPE * sqrt(LV_SLOPE_REACH_M / LV_SPACING_M));
     fix_sensors(w);
 }
 

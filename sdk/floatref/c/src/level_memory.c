@@ -10,7 +10,7 @@
 
 #define MOST_STEP_S 0.06
 #define LEAST_STEP_S 0.002
-#define MOST_S 600.0
+#define MOST_LENGTH_S 600.0
 #define MOST_TRAVEL_M 10000.0
 #define MOST_WAVELENGTH_M 1000.0
 #define MOST_PLACE_M 100.0
@@ -60,7 +60,7 @@ static int is_possible(const fr_level_fit_config *c)
 {
     return c != NULL && is_within(c->step_s, LEAST_STEP_S, MOST_STEP_S) && has_vehicle(c) &&
            has_densities(c) && is_within(c->wavelength_m, 1.0, MOST_WAVELENGTH_M) &&
-           is_within(c->longest_s, LV_SHORTEST_S, MOST_S) &&
+           is_within(c->longest_s, LV_SHORTEST_S, MOST_LENGTH_S) &&
            is_within(c->most_travel_m, 1.0, MOST_TRAVEL_M) && c->most_width >= 2 * LV_PIVOTS &&
            c->most_width <= 512;
 }

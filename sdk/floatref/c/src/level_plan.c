@@ -13,7 +13,7 @@
 #define BEHIND 0.25
 
 /* Between points that were touched as if evenly, beyond them as the outermost; -1 is untouched. */
-static void spread(double *last, int32_t count)
+static void spread_touch(double *last, int32_t count)
 {
     int32_t before = -1;
     for (int32_t j = 0; j < count; j++) {
@@ -38,7 +38,7 @@ static void key_road(lv_work *w, double *last, int32_t ends, double shift)
         for (int32_t end = 0; end < ends; end++)
             for (int32_t i = 0; i < w->strip[end][k].count; i++)
                 last[w->strip[end][k].column[i]] = (double)k;
-    spread(last, w->points);
+    spread_touch(last, w->points);
     for (int32_t j = 0; j < w->points; j++)
         last[j] += shift;
 }

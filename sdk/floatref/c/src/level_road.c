@@ -10,7 +10,7 @@
 #define NOISE_MPS2 0.1
 #define NORMAL 1.4826
 #define DECAY_S 0.5
-#define BESIDE 3
+#define JOLT_BESIDE 3
 
 /* Merge `from` into `into`: both are in order, and fill at most six points together. */
 static void merge_strips(lv_strip *into, const lv_strip *from)
@@ -133,8 +133,8 @@ static void find_jolts(lv_work *w)
         w->beta[k] = total;
     }
     for (int32_t k = 0; k < w->nodes; k++) {
-        int32_t low = k > BESIDE ? k - BESIDE : 0;
-        int32_t high = k + BESIDE < w->nodes ? k + BESIDE : w->nodes - 1;
+        int32_t low = k > JOLT_BESIDE ? k - JOLT_BESIDE : 0;
+        int32_t high = k + JOLT_BESIDE < w->nodes ? k + JOLT_BESIDE : w->nodes - 1;
         w->jolt[k] = 0.0;
         for (int32_t i = low; i <= high; i++)
             w->jolt[k] = fmax(w->jolt[k], w->beta[i]);

@@ -75,19 +75,19 @@ static void derive_rises(lv_work *w)
     }
 }
 
-static double lever_of(const lv_work *w, const double *y, int32_t k)
+static double lever_at(const lv_work *w, const double *y, int32_t k)
 {
     return w->config->lever_m - LV_SWAY_M * lv_passed(&w->strip[LV_LASER][k], y + w->points);
 }
 
-static void derive_height(lv_work *w, const double *y, int32_t k, int32_t number)
+static void derive_reading(lv_work *w, const double *y, int32_t k, int32_t number)
 {
     const lv_strip *strip = &w->strip[LV_LASER][k];
     double swayed = -LV_SWAY_M * y[lv_in_time(w, LV_PITCH) + k];
     lv_row row;
     row.count = 0;
     lv_add(&row, lv_in_time(w, LV_HEIGHT) + k, 1.0);
-    lv_add(&row, lv_in_time(w, LV_PITCH) + k, lever_of(w, y, k));
+    lv_add(&row, lv_in_time(w, LV_PITCH) + k, lever_at(w, y, k));
     for (int32_t i = 0; i < strip->count; i++)
         lv_add(&row, strip->column[i], -strip->value[i]);
     for (int32_t i = 0; i < strip->count; i++)
@@ -95,12 +95,12 @@ static void derive_height(lv_work *w, const double *y, int32_t k, int32_t number
     fr_lv_end_row(w, &row, number);
 }
 
-static void derive_heights(lv_work *w)
+static void derive_readings(lv_work *w)
 {
     int32_t row = w->begin[LV_READ];
     for (int32_t k = 0; k < w->nodes; k++) {
         if (w->height[k] == w->height[k]) {
-            derive_height(w, w->y, k, row);
+            derive_reading(w, w->y, k, row);
             row++;
         }
     }
@@ -156,7 +156,7 @@ void fr_lv_derive(lv_work *w, int known)
 {
     w->start[0] = 0;
     derive_known_before(w);
-    derive_heights(w);
+    derive_readings(w);
     derive_steps(w, LV_SAGS, lv_in_time(w, LV_OFFSET), w->nodes);
     derive_steps(w, LV_TURNS, lv_in_time(w, LV_MOMENT), w->nodes);
     for (int32_t at = 0; at < w->middles; at++)

@@ -93,7 +93,7 @@ static void go_on(fr_level *level, lv_arrays *a, int32_t at)
 }
 
 /* Let go of bins that are before any brake to come, or more than there is room for. */
-static void let_go(fr_level *level, const lv_arrays *a, int32_t at)
+static void leave_behind(fr_level *level, const lv_arrays *a, int32_t at)
 {
     level->ready = side_of(level, a, level->ready, at);
     if (at - level->ready > 2 * level->side)
@@ -127,7 +127,7 @@ static void append(fr_level *level, lv_arrays *a, const lv_bin *bin)
     if (bin->active == 0 && level->open != 0)
         go_on(level, a, at);
     if (level->open == 0)
-        let_go(level, a, at);
+        leave_behind(level, a, at);
 }
 
 /* Those that may be the last of a standstill have turned out to be. */

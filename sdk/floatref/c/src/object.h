@@ -36,6 +36,6 @@ fr_status fr_place(void *memory, size_t size, const void *config, const void *ou
 fr_status fr_ready(const void *object, uint32_t magic);
 
 /* Whether `count` samples fit into `y`. */
-fr_status fr_room(size_t count, const fr_real *y, size_t capacity, size_t *written);
+fr_status fr_room(size_t count, const void *y, size_t capacity, size_t *written);
 
 #endif

@@ -60,8 +60,10 @@ static int64_t furthest_of(const fr_points *points, const int64_t *counts, size_
 {
     int64_t origin = points->started != 0 ? points->origin : counts[0];
     int64_t furthest = points->started != 0 ? points->furthest : 0;
-    for (size_t i = 0; i < count; i++)
-        furthest = counts[i] - origin > furthest ? counts[i] - origin : furthest;
+    for (size_t i = 0; i < count; i++) {
+        if (counts[i] != FR_NO_COUNT && counts[i] - origin > furthest)
+            furthest = counts[i] - origin;
+    }
     return furthest;
 }
 

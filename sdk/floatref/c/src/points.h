@@ -38,14 +38,14 @@ void fr_points_next(fr_points *points, int64_t count, fr_place_of_point *place);
 /* Whether a sample has reached the next point, and is the farthest so far. */
 static inline int fr_points_reached(const fr_points *points, int64_t count)
 {
-    int64_t now = count - points->origin;
+    int64_t now = count != FR_NO_COUNT ? count - points->origin : -1;
     return now >= points->threshold && now >= points->furthest;
 }
 
 /* Leave a sample whose points have all been taken. */
 static inline void fr_points_pass(fr_points *points, int64_t count)
 {
-    int64_t now = count - points->origin;
+    int64_t now = count != FR_NO_COUNT ? count - points->origin : -1;
     points->furthest = now > points->furthest ? now : points->furthest;
 }
 

@@ -1,53 +1,86 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Screening of one sensor as its samples come: gaps that a line does not bridge well, and runs of
- * identical samples while the vehicle goes on and, where an accelerometer is beside it, moves.
+ * Screening of one sensor as its samples come: gaps that a line does not bridge well, runs of
+ * identical samples while the vehicle goes on and, where an accelerometer is beside it, moves, a
+ * stay at an end of the range, and spikes.
  */
 #include <math.h>
 
-#include "travel.h"
+#include "watch.h"
 
 #define SCREENING_MAGIC FR_MAGIC(13)
 #define LEAST_RUN 2.0
+#define LEAST_STAY 3.0
 #define MOST_RUN 1e15
-
-typedef struct watch {
-    int64_t index;              /* of the next sample */
-    int64_t gap, run;           /* first sample of what is open, -1 if it is not */
-    int64_t before, last;       /* counts before the run and at the last sample */
-    fr_real value, least, most; /* of the run; readings of the accelerometer but the last one */
-    fr_real reading;            /* the last one */
-    int32_t unknown;            /* whether one of these is missing */
-} watch;
+/* Above this rate an accelerometer's own bandwidth spreads a shock over several samples. */
+#define SHOCK_SPREADS_HZ 1000.0
 
 struct fr_screening {
     fr_head head;
-    double longest_gap, shortest_run, metres_per_count, travel_m, spread; /* lengths in samples */
-    watch watch;
+    fr_watch_limits limits;
+    fr_watch watch;
 };
 
 fr_screening_config fr_screening_defaults(void)
 {
-    fr_screening_config config = {0.0, 0.0, 0.01, 0.05, 20.0, 1.0, 0.5, 0.1};
+    fr_screening_config config = {0.0, 0.0, 0.01, 0.05,  20.0, 1.0,   0.5,
+                                  0.1, 0.0, 0.0,  0.002, 5.0,  0.005, 0.0};
     return config;
 }
 
-static double shortest_run(const fr_screening_config *config)
+/* The longer of a time and a number of usual holds, in samples. */
+static double longer(const fr_screening_config *config, double time_s, double holds)
 {
-    double time = floor(config->stuck_s * config->rate_hz), holds = config->holds * config->hold;
-    return time > holds ? time : holds;
+    double time = floor(time_s * config->rate_hz), held = holds * config->hold;
+    return time > held ? time : held;
+}
+
+static int is_run(double samples)
+{
+    return samples >= LEAST_RUN && samples < MOST_RUN;
+}
+
+/* Both ends 0: they are not known. */
+static int range_is_possible(const fr_screening_config *config)
+{
+    return fr_finite(config->range_least) && fr_finite(config->range_greatest) &&
+           config->range_least <= config->range_greatest && fr_above_zero(config->stay_s) &&
+           fr_above_zero(config->stay_holds) && fr_above_zero(config->leap) &&
+           longer(config, config->stay_s, config->stay_holds) < MOST_RUN;
+}
+
+static int screening_is_possible(const fr_screening_config *config)
+{
+    return fr_above_zero(config->rate_hz) && fr_above_zero(config->metres_per_count) &&
+           fr_above_zero(config->longest_gap_s) && fr_above_zero(config->stuck_s) &&
+           fr_above_zero(config->holds) && fr_above_zero(config->hold) &&
+           fr_above_zero(config->travel_m) && fr_finite(config->spread_mps2) &&
+           config->spread_mps2 >= 0.0 && is_run(longer(config, config->stuck_s, config->holds)) &&
+           config->longest_gap_s * config->rate_hz < MOST_RUN && range_is_possible(config) &&
+           fr_finite(config->spike) && config->spike >= 0.0 &&
+           (config->spike <= 0.0 || config->rate_hz >= SHOCK_SPREADS_HZ);
 }
 
 size_t fr_screening_size(const fr_screening_config *config)
 {
-    int possible = config != NULL && fr_above_zero(config->rate_hz) &&
-                   fr_above_zero(config->metres_per_count) && fr_above_zero(config->longest_gap_s) &&
-                   fr_above_zero(config->stuck_s) && fr_above_zero(config->holds) &&
-                   fr_above_zero(config->hold) && fr_above_zero(config->travel_m) &&
-                   fr_finite(config->spread_mps2) && config->spread_mps2 >= 0.0 &&
-                   shortest_run(config) >= LEAST_RUN && shortest_run(config) < MOST_RUN &&
-                   config->longest_gap_s * config->rate_hz < MOST_RUN;
-    return possible ? sizeof(fr_screening) : 0u;
+    return config != NULL && screening_is_possible(config) ? sizeof(fr_screening) : 0u;
+}
+
+static void set_limits(fr_watch_limits *limits, const fr_screening_config *config)
+{
+    double stay = longer(config, config->stay_s, config->stay_holds);
+    limits->longest_gap = config->longest_gap_s * config->rate_hz + 1.0;
+    limits->shortest_run = longer(config, config->stuck_s, config->holds);
+    limits->metres_per_count = config->metres_per_count;
+    limits->travel_m = config->travel_m;
+    limits->spread = config->spread_mps2;
+    limits->range = config->range_least < config->range_greatest ? 1 : 0;
+    /* As the samples are rounded, so that a sample at the end is at the end. */
+    limits->least = (double)FR_R(config->range_least);
+    limits->greatest = (double)FR_R(config->range_greatest);
+    limits->shortest_stay = stay > LEAST_STAY ? stay : LEAST_STAY;
+    limits->leap = config->leap;
+    limits->spike = config->spike;
 }
 
 fr_status fr_screening_init(void *memory, size_t size, const fr_screening_config *config,
@@ -58,108 +91,11 @@ fr_status fr_screening_init(void *memory, size_t size, const fr_screening_config
                                 SCREENING_MAGIC);
     if (status != FR_OK)
         return status;
-    screening->longest_gap = config->longest_gap_s * config->rate_hz + 1.0;
-    screening->shortest_run = shortest_run(config);
-    screening->metres_per_count = config->metres_per_count;
-    screening->travel_m = config->travel_m;
-    screening->spread = config->spread_mps2;
+    set_limits(&screening->limits, config);
     screening->watch.gap = -1;
     screening->watch.run = -1;
     *out = screening;
     return FR_OK;
-}
-
-/* Write a span, if there is an array, and count it. */
-static size_t report(fr_span *spans, size_t made, int64_t first, int64_t behind, int32_t kind)
-{
-    if (spans != NULL) {
-        spans[made].first = first;
-        spans[made].behind = behind;
-        spans[made].kind = kind;
-        spans[made].reserved = 0;
-    }
-    return made + 1u;
-}
-
-/* A gap at an end of the channel has no neighbour there, so no line bridges it. */
-static int is_long(const fr_screening *s, const watch *w, int at_end)
-{
-    return at_end || w->gap == 0 || (double)(w->index - w->gap) > s->longest_gap;
-}
-
-static int is_stuck(const fr_screening *s, const watch *w)
-{
-    double travel_m = (double)(w->last - w->before) * s->metres_per_count;
-    double spread = (double)w->most - (double)w->least;
-    if ((double)(w->index - w->run) < s->shortest_run || travel_m < s->travel_m)
-        return 0;
-    return s->spread <= 0.0 || (w->unknown == 0 && spread >= s->spread);
-}
-
-/* Close what the sample `x`, or the end, does not continue. */
-static size_t close_spans(const fr_screening *s, watch *w, fr_real x, int at_end, fr_span *spans,
-                          size_t before)
-{
-    size_t made = before;
-    if (w->gap >= 0 && (at_end || !fr_missing(x))) {
-        if (is_long(s, w, at_end))
-            made = report(spans, made, w->gap, w->index, FR_GAP);
-        w->gap = -1;
-    }
-    if (w->run >= 0 && (at_end || x != w->value)) {
-        if (is_stuck(s, w))
-            made = report(spans, made, w->run, w->index, FR_STUCK);
-        w->run = -1;
-    }
-    return made;
-}
-
-/* Widen the run by the accelerometer's reading at its last sample: that of the end is left out. */
-static void widen(watch *w)
-{
-    w->least = w->reading < w->least ? w->reading : w->least;
-    w->most = w->reading > w->most ? w->reading : w->most;
-    w->unknown = w->unknown != 0 || fr_missing(w->reading) ? 1 : 0;
-}
-
-static void take_sample(watch *w, fr_real x, fr_real force, int64_t count)
-{
-    if (fr_missing(x)) {
-        w->gap = w->gap < 0 ? w->index : w->gap;
-    } else if (w->run < 0) {
-        w->run = w->index;
-        w->before = w->index > 0 ? w->last : count;
-        w->value = x;
-        w->least = force;
-        w->most = force;
-        w->unknown = 0;
-    } else {
-        widen(w);
-    }
-    w->reading = force;
-    w->last = count;
-    w->index++;
-}
-
-static size_t screen(const fr_screening *s, watch *w, const fr_real *x, const fr_real *force,
-                     const int64_t *counts, size_t count, fr_span *spans)
-{
-    size_t made = 0;
-    for (size_t i = 0; i < count; i++) {
-        made = close_spans(s, w, x[i], 0, spans, made);
-        take_sample(w, x[i], force != NULL ? force[i] : 0, counts[i]);
-    }
-    return made;
-}
-
-/* Refuse, or say how many spans there is room for. */
-static fr_status room_for(size_t needed, const fr_span *spans, size_t capacity, size_t *written)
-{
-    *written = 0u;
-    if (needed > 0u && spans == NULL)
-        return FR_NULL_POINTER;
-    *written = needed;
-    return needed > capacity ? FR_OUTPUT_FULL : FR_OK;
 }
 
 fr_status fr_screening_push(fr_screening *screening, const fr_real *x, const fr_real *force,
@@ -171,19 +107,19 @@ fr_status fr_screening_push(fr_screening *screening, const fr_real *x, const fr_
         status = FR_NULL_POINTER;
     if (status == FR_OK)
         status = fr_check_samples(x, count, FR_MISSING_BRIDGED);
-    if (status == FR_OK && (force != NULL || screening->spread > 0.0))
+    if (status == FR_OK && (force != NULL || screening->limits.spread > 0.0))
         status = fr_check_samples(force, count, FR_MISSING_BRIDGED);
     if (status == FR_OK)
         status = fr_check_counts(counts, count, FR_BACK_TAKEN, INT64_MIN);
     if (status != FR_OK)
         return status;
     /* Once without writing, to see whether there is room: the state is small. */
-    watch ahead = screening->watch;
-    size_t needed = screen(screening, &ahead, x, force, counts, count, NULL);
-    status = room_for(needed, spans, capacity, written);
+    fr_watch ahead = screening->watch;
+    size_t needed = fr_watch_samples(&screening->limits, &ahead, x, force, counts, count, NULL);
+    status = fr_room_for_spans(needed, spans, capacity, written);
     if (status != FR_OK)
         return status;
-    (void)screen(screening, &screening->watch, x, force, counts, count, spans);
+    (void)fr_watch_samples(&screening->limits, &screening->watch, x, force, counts, count, spans);
     return FR_OK;
 }
 
@@ -195,11 +131,12 @@ fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, size_t ca
         status = FR_NULL_POINTER;
     if (status != FR_OK)
         return status;
-    watch ahead = screening->watch;
-    status = room_for(close_spans(screening, &ahead, 0, 1, NULL, 0u), spans, capacity, written);
+    fr_watch ahead = screening->watch;
+    status = fr_room_for_spans(fr_watch_end(&screening->limits, &ahead, NULL), spans, capacity,
+                               written);
     if (status != FR_OK)
         return status;
-    (void)close_spans(screening, &screening->watch, 0, 1, spans, 0u);
+    (void)fr_watch_end(&screening->limits, &screening->watch, spans);
     screening->head.state = FR_STATE_ENDED;
     return FR_OK;
 }
