@@ -3,11 +3,7 @@
 
 #include <math.h>
 
-static const double GRAVITY = 9.80665, ANTI_ALIAS_HZ = 1000.0, ANTI_ALIAS_FROM_HZ = 4000.0;
-
-/* Place an object of the library in memory of the run. */
-#define MAKE(kind, config, out)                                                                    \
-    fr_##kind##_init(run_memory(fr_##kind##_size(config)), fr_##kind##_size(config), config, out)
+static const double ANTI_ALIAS_HZ = 1000.0, ANTI_ALIAS_FROM_HZ = 4000.0;
 
 /* Before a run: what a data sheet would say of range, step, hold and noise of a sensor. */
 fr_status learn(struct sensor *sensor, const struct samples *s)
@@ -66,15 +62,16 @@ fr_status screen(struct sensor *sensor, const struct samples *s, fr_span *spans,
     return status;
 }
 
+#ifndef STAGE_road_prior /* that is in firmware_road_prior.c */
 /* The stage. STAGE=basic is a conventional engine, whose cut-off follows the speed down to zero. */
-static fr_status stage_begin(struct path *path)
+fr_status stage_begin(struct path *path)
 {
     fr_adaptive_config config = fr_adaptive_defaults();
     config.travel.rate_hz = path->rate_hz;
     config.travel.metres_per_count = path->metres_per_count;
     config.travel.back = FR_BACK_TAKEN;
     config.interval_m = path->interval_m;
-    config.gravity_mps2 = GRAVITY;
+    config.gravity_mps2 = 9.80665;
     config.missing = FR_MISSING_BRIDGED;
 #ifdef STAGE_basic
     config.cut_off = (fr_cut_off_config){1e-6, config.cut_off.wavelength_m, 1e-3, 1e3};
@@ -82,64 +79,72 @@ static fr_status stage_begin(struct path *path)
     return MAKE(adaptive, &config, &path->stage);
 }
 
+fr_status stage_take(struct path *path, fr_real *force, fr_real *height, const int64_t *counts, size_t n)
+{
+    size_t made, k = path->count;
+    return fr_adaptive_push(path->stage, force, height, counts, n, path->elevation + k,
+                            path->speed + k, path->room - k, &made);
+}
+
+fr_status stage_end(struct path *path)
+{
+    return fr_adaptive_finish(path->stage, path->elevation, path->speed, path->count,
+                              path->elevation, path->room, &path->count);
+}
+#endif
+
 static fr_status low_passes(struct path *path)
 {
     fr_filter_config config = fr_filter_defaults();
-    fr_status status = FR_OK;
     config.step = 1.0 / path->rate_hz;
     config.cutoff = ANTI_ALIAS_HZ;
     config.passes = FR_LOW_PASS;
-    for (int i = 0; status == FR_OK && path->rate_hz > ANTI_ALIAS_FROM_HZ && i < 4; i++) {
+    for (int i = 0; path->rate_hz > ANTI_ALIAS_FROM_HZ && i < 4; i++) {
         config.order = 1 + i % 2;
-        status = MAKE(filter, &config, &path->low_pass[i]);
+        TRY(MAKE(filter, &config, &path->low_pass[i]));
     }
-    return status;
+    return FR_OK;
 }
 
 fr_status begin(struct path *path)
 {
     fr_causes_config config = fr_causes_defaults();
+    path->validity = fr_validity_defaults();
+    path->validity.interval_m = config.interval_m = path->interval_m;
+    TRY(low_passes(path));
+    TRY(stage_begin(path));
     config.rate_hz = path->rate_hz;
     config.metres_per_count = path->metres_per_count;
-    config.interval_m = path->interval_m;
-    fr_status status = low_passes(path);
-    status = status == FR_OK ? MAKE(causes, &config, &path->causes) : status;
-    return status == FR_OK ? stage_begin(path) : status;
+    config.every = path->through_stops ? INT32_MAX : 1; /* else slow travel and brakes are causes */
+    return MAKE(causes, &config, &path->causes);
 }
 
-/* A chunk of samples: both sensors lose the same above 1000 Hz, then the stage and the causes. */
+/* A chunk of samples: both sensors lose the same above 1000 Hz, then the causes and the stage. */
 fr_status take(struct path *path, fr_real *force, fr_real *height, const int64_t *counts,
                const uint8_t *causes, size_t n)
 {
-    size_t made, room = path->room - path->count, k = path->count;
-    fr_status status = FR_OK;
+    size_t made, room = path->room - path->count;
     for (size_t i = 0; BROKEN == 1 && i < n; i++)
         height[i] = -height[i];
-    for (int i = 0; status == FR_OK && path->low_pass[0] != NULL && i < 4; i++) {
+    for (int i = 0; path->low_pass[0] != NULL && i < 4; i++) {
         fr_real *x = i < 2 ? force : height;
-        status = fr_filter_push(path->low_pass[i], x, n, x, n, &made);
+        TRY(fr_filter_push(path->low_pass[i], x, n, x, n, &made));
     }
-    if (status == FR_OK)
-        status = fr_causes_push(path->causes, counts, causes, n, path->valid + k, room, &made);
-    if (status == FR_OK)
-        status = fr_adaptive_push(path->stage, force, height, counts, n, path->elevation + k,
-                                  path->speed + k, room, &made);
-    path->count += status == FR_OK ? made : 0;
-    return status;
+    path->of_samples = causes;
+    TRY(stage_take(path, force, height, counts, n));
+    TRY(fr_causes_push(path->causes, counts, causes, n, path->valid + path->count, room, &made));
+    path->count += made;
+    return FR_OK;
 }
 
 /* The end of a run: the backward passes, and what is valid. */
 fr_status end(struct path *path)
 {
-    size_t n = path->count, made;
-    fr_validity_config config = fr_validity_defaults();
-    config.interval_m = path->interval_m;
-    fr_status status = fr_adaptive_finish(path->stage, path->elevation, path->speed, n,
-                                          path->elevation, path->room, &made);
-    status = status == FR_OK ? fr_causes_finish(path->causes, path->valid, n) : status;
-    if (status == FR_OK)
-        status = fr_validity(&config, path->valid, n, path->valid, path->room, &made);
-    for (size_t i = 0; BROKEN == 2 && i < n; i++)
+    size_t made;
+    TRY(fr_causes_finish(path->causes, path->valid, path->count));
+    TRY(stage_end(path));
+    TRY(fr_validity(&path->validity, path->valid, path->count, path->valid, path->room, &made));
+    for (size_t i = 0; BROKEN == 2 && i < path->count; i++)
         path->valid[i] = 1;
-    return status;
+    return FR_OK;
 }

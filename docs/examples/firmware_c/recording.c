@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "json.h"
+#include "setup.h"
 
 enum { LARGEST_BYTES = 4 << 20 };
 static const double LATEST_S = 1e10;
@@ -160,7 +160,7 @@ static bool read_document(struct recording *recording, struct json document,
         if (!read_entry(recording, item, failure))
             return false;
     }
-    return keep_profiled(recording, failure);
+    return keep_profiled(recording, failure) && setup_read(recording, document, failure);
 }
 
 bool recording_read(struct recording *recording, const char *path, struct failure *failure)

@@ -29,6 +29,9 @@ struct recording {
     double interval_m;
     int tracks; /* wheel paths that have a height */
     char track[MOST_TRACKS][TRACK_SIZE];
+    double reference_m[MOST_TRACKS]; /* accelerometers ahead of the vehicle point */
+    double lever_m[MOST_TRACKS];     /* lasers ahead of their accelerometers */
+    double front_axle_m, wheelbase_m; /* the front axle ahead of that point */
     int entries;
     struct entry entry[MOST_ENTRIES];
 };

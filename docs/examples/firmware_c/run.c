@@ -25,6 +25,7 @@ struct session {
     struct recording recording;
     struct channel distance;
     struct wheel_path *paths;
+    struct vehicle vehicle;
     struct clock clock; /* of the first accelerometer, without its holes */
     double metres_per_count, start_m;
     long first, last;   /* the samples of the clock that all channels cover */
@@ -116,6 +117,22 @@ static double length_of(struct session *session)
     return farthest - session->start_m;
 }
 
+/* Where axles and lasers are, ahead of the middle of the lasers. */
+static void place_vehicle(struct session *session)
+{
+    struct vehicle *vehicle = &session->vehicle;
+    const struct recording *recording = &session->recording;
+    double reference_m = 0.0, share = 1.0 / (double)recording->tracks;
+    vehicle->paths = recording->tracks;
+    vehicle->samples = (size_t)(session->last - session->first + 1);
+    for (int i = 0; i < recording->tracks; i++) {
+        reference_m += share * recording->reference_m[i];
+        vehicle->lever_m += share * recording->lever_m[i];
+    }
+    vehicle->front_m = recording->front_axle_m - reference_m - vehicle->lever_m;
+    vehicle->rear_m = vehicle->front_m - recording->wheelbase_m;
+}
+
 /* The first sample whose distance is known, and memory for the points behind it. */
 static bool begin_paths(struct session *session, struct failure *failure)
 {
@@ -131,8 +148,12 @@ static bool begin_paths(struct session *session, struct failure *failure)
         return fail(failure, "channel distance: %g m are less than the profile interval", length_m);
     if (length_m > MOST_POINTS * interval_m)
         return fail(failure, "channel distance: %g m are too many points", length_m);
+    place_vehicle(session);
     for (int i = 0; i < session->recording.tracks; i++) {
         struct path *path = &session->paths[i].path;
+        path->vehicle = &session->vehicle;
+        path->number = i;
+        path->lever_m = session->recording.lever_m[i];
         path->rate_hz = session->clock.rate_hz;
         path->interval_m = interval_m;
         path->metres_per_count = session->metres_per_count;
@@ -181,6 +202,7 @@ static bool process_chunk(struct session *session, long first, size_t count, str
             force[k] = (fr_real)a.value;
             height[k] = (fr_real)h.value;
             causes[k] = shared[k] | causes_of(a, DRIFT) | causes_of(h, 0);
+            causes[k] |= h.missing ? NO_HEIGHT : 0;
         }
         fr_status status = take(&path->path, force, height, counts, causes, count);
         if (status != FR_OK)

@@ -1,0 +1,64 @@
+#include "waiting.h"
+
+#include <math.h>
+
+fr_status begin_waiting(struct vehicle *vehicle)
+{
+    struct waiting *w = vehicle->waiting = run_memory(sizeof *w);
+    if (vehicle->paths > MOST_LEVELLED)
+        return FR_BAD_CONFIG;
+    if (w == NULL || (w->counts = run_memory(vehicle->samples * sizeof *w->counts)) == NULL)
+        return FR_TOO_SMALL;
+    return FR_OK;
+}
+
+fr_status add_waiting(struct path *path)
+{
+    int i = path->number;
+    struct waiting *w = path->vehicle->waiting;
+    size_t samples = path->vehicle->samples * sizeof(fr_real);
+    w->path[i] = path;
+    w->force[i] = run_memory(samples);
+    w->height[i] = run_memory(samples);
+    path->flags = run_memory(path->room);
+    path->sigma = run_memory(path->room * sizeof *path->sigma);
+    path->unlevel = run_memory(path->room * sizeof *path->unlevel);
+    bool all = w->force[i] != NULL && w->height[i] != NULL && path->flags != NULL &&
+               path->sigma != NULL && path->unlevel != NULL;
+    return all ? FR_OK : FR_TOO_SMALL;
+}
+
+void store(struct path *path, const fr_real *force, const fr_real *height, size_t count)
+{
+    struct waiting *w = path->vehicle->waiting;
+    fr_real *a = w->force[path->number] + w->taken, *h = w->height[path->number] + w->taken;
+    for (size_t k = 0; k < count; k++) {
+        a[k] = (path->of_samples[k] & FR_CAUSE_DRIFT) != 0 ? (fr_real)NAN : force[k];
+        h[k] = (path->of_samples[k] & NO_HEIGHT) != 0 ? (fr_real)NAN : height[k];
+    }
+}
+
+/* The samples from `known` on have no count: a line up to `count` at number `at`. */
+static void bridge_counts(struct waiting *w, size_t at, int64_t count)
+{
+    int64_t before = w->known > 0 ? w->counts[w->known - 1] : count;
+    double from = (double)w->known - 1.0, slope = (double)(count - before) / ((double)at - from);
+    for (size_t k = w->known; k < at; k++)
+        w->counts[k] = before + (int64_t)(slope * ((double)k - from));
+    w->counts[at] = count;
+    w->known = at + 1;
+}
+
+void store_counts(struct waiting *w, const int64_t *counts, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (counts[k] != FR_NO_COUNT)
+            bridge_counts(w, w->taken + k, counts[k]);
+    w->taken += count;
+}
+
+void end_counts(struct waiting *w)
+{
+    if (w->known > 0 && w->known < w->taken)
+        bridge_counts(w, w->taken - 1, w->counts[w->known - 1]);
+}
