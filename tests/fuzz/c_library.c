@@ -179,14 +179,14 @@ static fr_status fit_bins(arrays *a)
     return status;
 }
 
-/* Levelling: two wheel paths are twice as many values, so a push has half of its arrays. */
+/* Levelling: four wheel paths are four times as many values, so a push has a quarter of its arrays. */
 static fr_status call_level(int which, void *o, arrays *a)
 {
     fr_level_bin *bins = malloc((a->capacity + 1) * sizeof *bins);
     int64_t every;
     fr_status status = FR_OK;
     switch (which) {
-    case 20: status = fr_level_push(o, a->x, a->h, a->n, a->count / 2, &a->written); break;
+    case 20: status = fr_level_push(o, a->x, a->h, a->n, a->count / 4, &a->written); break;
     case 60: status = fr_level_take(o, bins, a->capacity, &a->written); break;
     case 61: status = fr_level_finish(o, &a->written); break;
     case 62: status = fr_level_every(o, &every); break;

@@ -7,7 +7,7 @@
 #include "level_model.h"
 #include "level_stage.h"
 
-#define LEVEL_MAGIC FR_MAGIC(14)
+#define LEVEL_MAGIC FR_MAGIC(40)
 #define BINS_HZ 100.0
 #define SMOOTHED_S 0.5
 #define BELL_S 0.06
