@@ -3,9 +3,9 @@
 
 #include "waiting.h"
 
-/* 0.3 of 26 mm, by which the road bends at least that the smoother expects. */
-static const double MOST_SIGMA_M = 7.8e-3, GRAVITY = 9.80665;
-static const double LONGEST_WAVE_M = 91.44; /* of both passes; 105.91 m each */
+static const double LONGEST_WAVE_M = 91.44; /* of both passes of the high-pass; 105.91 m each */
+static const double LAG_S = 180.0;          /* as long as the SDK waits at most */
+static const double MOST_SIGMA_M = 7.8e-3;  /* 0.3 of the least bend of a road, 26 mm in 32 m */
 
 static fr_status begin_levelling(struct vehicle *vehicle, const struct path *path)
 {
@@ -30,7 +30,8 @@ fr_status stage_begin(struct path *path)
     config.rate_hz = path->rate_hz;
     config.metres_per_count = path->metres_per_count;
     config.interval_m = path->interval_m;
-    config.gravity_mps2 = GRAVITY;
+    config.gravity_mps2 = 9.80665;
+    config.lag_s = LAG_S;
     config.missing = FR_MISSING_BRIDGED;
     config.back = FR_BACK_TAKEN;
     path->through_stops = true;
@@ -46,7 +47,7 @@ fr_status stage_begin(struct path *path)
 static fr_status send(struct waiting *w, struct path *path, size_t end)
 {
     fr_real share[CHUNK], *force = w->force[path->number], *height = w->height[path->number];
-    size_t first = w->sent, n = end - first, room = path->room - path->made, made;
+    size_t first = w->sent, n = end - first, k = path->made, room = path->room - k, made;
     const fr_level_bin *a = &w->before, *b = &w->behind;
     double middle = (double)a->first + 0.5 * (double)(w->every - 1);
     double between = b->first > a->first ? (double)(b->first - a->first) : 1.0;
@@ -59,7 +60,6 @@ static fr_status send(struct waiting *w, struct path *path, size_t end)
         for (; path->placed < path->room && (double)path->placed <= place; path->placed++)
             path->unlevel[path->placed] = (fr_real)(a->sigma_m + t * (b->sigma_m - a->sigma_m));
     }
-    size_t k = path->made;
     TRY(fr_road_prior_push_levelled(path->road_prior, force + first, height + first, w->counts + first,
                                     share, NULL, n, path->elevation + k, path->sigma + k,
                                     path->flags + k, room, &made));
@@ -83,13 +83,13 @@ static fr_status send_up_to(struct waiting *w, int paths, size_t end)
 static fr_status take_bins(struct waiting *w, int paths)
 {
     fr_level_bin bin;
-    size_t found = 1;
-    for (;;) {
+    for (size_t found = 1;;) {
         TRY(fr_level_take(w->level, &bin, 1, &found));
         if (found == 0)
             return FR_OK;
-        w->before = w->before.first < 0 ? bin : w->behind;
+        w->before = w->begun ? w->behind : bin;
         w->behind = bin;
+        w->begun = true;
         TRY(send_up_to(w, paths, (size_t)(bin.first + w->every / 2)));
     }
 }
@@ -100,10 +100,7 @@ static fr_status level_known(struct waiting *w, int paths)
     fr_real force[CHUNK * MOST_LEVELLED], height[CHUNK * MOST_LEVELLED];
     while (w->pushed < w->known) {
         size_t n = w->known - w->pushed > CHUNK ? CHUNK : w->known - w->pushed, ready;
-        for (size_t k = 0; k < n * (size_t)paths; k++) {
-            force[k] = w->force[k % (size_t)paths][w->pushed + k / (size_t)paths];
-            height[k] = w->height[k % (size_t)paths][w->pushed + k / (size_t)paths];
-        }
+        interleave(w, (size_t)paths, n, force, height);
         TRY(fr_level_push(w->level, force, height, w->counts + w->pushed, n, &ready));
         w->pushed += n;
         TRY(take_bins(w, paths));
@@ -115,9 +112,8 @@ static fr_status level_known(struct waiting *w, int paths)
 fr_status stage_take(struct path *path, fr_real *force, fr_real *height, const int64_t *counts, size_t n)
 {
     store(path, force, height, n);
-    if (path->number + 1 < path->vehicle->paths)
-        return FR_OK;
-    store_counts(path->vehicle->waiting, counts, n);
+    if (path->number + 1 == path->vehicle->paths)
+        store_counts(path->vehicle->waiting, counts, n);
     return level_known(path->vehicle->waiting, path->vehicle->paths);
 }
 
@@ -145,8 +141,10 @@ fr_status stage_end(struct path *path)
     TRY(fr_road_prior_finish(path->road_prior, path->elevation + k, path->sigma + k, path->flags + k,
                              path->room - k, &made));
     path->count = n = n < k + made ? n : k + made;
-    for (size_t i = 0; i < n; i++)
-        if (path->flags[i] != 0 || hypot(path->sigma[i], path->unlevel[i]) > MOST_SIGMA_M)
+    for (size_t i = 0; i < n; i++) {
+        path->sigma[i] = (fr_real)hypot(path->sigma[i], path->unlevel[i]);
+        if (path->flags[i] != 0 || path->sigma[i] > MOST_SIGMA_M)
             path->valid[i] |= (path->flags[i] & FR_POINT_LEAP) != 0 ? FR_CAUSE_SLOW : FR_CAUSE_MISSING;
+    }
     return fr_high_pass_profile(&config, path->elevation, n, path->elevation, path->room, &made);
 }

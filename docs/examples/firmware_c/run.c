@@ -7,6 +7,7 @@
 #include "memory.h"
 #include "profile.h"
 #include "search.h"
+#include "setup.h"
 #include "window.h"
 
 static const double SLOWEST_HZ = 20.0; /* of an accelerometer */
@@ -117,22 +118,6 @@ static double length_of(struct session *session)
     return farthest - session->start_m;
 }
 
-/* Where axles and lasers are, ahead of the middle of the lasers. */
-static void place_vehicle(struct session *session)
-{
-    struct vehicle *vehicle = &session->vehicle;
-    const struct recording *recording = &session->recording;
-    double reference_m = 0.0, share = 1.0 / (double)recording->tracks;
-    vehicle->paths = recording->tracks;
-    vehicle->samples = (size_t)(session->last - session->first + 1);
-    for (int i = 0; i < recording->tracks; i++) {
-        reference_m += share * recording->reference_m[i];
-        vehicle->lever_m += share * recording->lever_m[i];
-    }
-    vehicle->front_m = recording->front_axle_m - reference_m - vehicle->lever_m;
-    vehicle->rear_m = vehicle->front_m - recording->wheelbase_m;
-}
-
 /* The first sample whose distance is known, and memory for the points behind it. */
 static bool begin_paths(struct session *session, struct failure *failure)
 {
@@ -148,7 +133,8 @@ static bool begin_paths(struct session *session, struct failure *failure)
         return fail(failure, "channel distance: %g m are less than the profile interval", length_m);
     if (length_m > MOST_POINTS * interval_m)
         return fail(failure, "channel distance: %g m are too many points", length_m);
-    place_vehicle(session);
+    place_vehicle(&session->vehicle, &session->recording);
+    session->vehicle.samples = (size_t)(session->last - session->first + 1);
     for (int i = 0; i < session->recording.tracks; i++) {
         struct path *path = &session->paths[i].path;
         path->vehicle = &session->vehicle;

@@ -50,3 +50,15 @@ bool setup_read(struct recording *recording, struct json document, struct failur
     return read_place(inside(axles, "wheelbase_m"), "wheelbase_m", &recording->wheelbase_m, failure) &&
            read_place(inside(axles, "front_axle_m"), "front_axle_m", &recording->front_axle_m, failure);
 }
+
+void place_vehicle(struct vehicle *vehicle, const struct recording *recording)
+{
+    double reference_m = 0.0, share = 1.0 / (double)recording->tracks;
+    vehicle->paths = recording->tracks;
+    for (int i = 0; i < recording->tracks; i++) {
+        reference_m += share * recording->reference_m[i];
+        vehicle->lever_m += share * recording->lever_m[i];
+    }
+    vehicle->front_m = recording->front_axle_m - reference_m - vehicle->lever_m;
+    vehicle->rear_m = vehicle->front_m - recording->wheelbase_m;
+}

@@ -8,4 +8,7 @@
 /* Read the places of all wheel paths; those that are not stated are the usual ones. */
 bool setup_read(struct recording *recording, struct json document, struct failure *failure);
 
+/* Where axles and lasers are, ahead of the middle of the lasers. */
+void place_vehicle(struct vehicle *vehicle, const struct recording *recording);
+
 #endif

@@ -33,8 +33,10 @@ void store(struct path *path, const fr_real *force, const fr_real *height, size_
     struct waiting *w = path->vehicle->waiting;
     fr_real *a = w->force[path->number] + w->taken, *h = w->height[path->number] + w->taken;
     for (size_t k = 0; k < count; k++) {
+        /* The smoother begins at the first height, which has to be one. */
+        bool unread = (path->of_samples[k] & NO_HEIGHT) != 0 && w->taken + k > 0;
         a[k] = (path->of_samples[k] & FR_CAUSE_DRIFT) != 0 ? (fr_real)NAN : force[k];
-        h[k] = (path->of_samples[k] & NO_HEIGHT) != 0 ? (fr_real)NAN : height[k];
+        h[k] = unread ? (fr_real)NAN : height[k];
     }
 }
 
@@ -61,4 +63,12 @@ void end_counts(struct waiting *w)
 {
     if (w->known > 0 && w->known < w->taken)
         bridge_counts(w, w->taken - 1, w->counts[w->known - 1]);
+}
+
+void interleave(const struct waiting *w, size_t paths, size_t count, fr_real *force, fr_real *height)
+{
+    for (size_t k = 0; k < count * paths; k++) {
+        force[k] = w->force[k % paths][w->pushed + k / paths];
+        height[k] = w->height[k % paths][w->pushed + k / paths];
+    }
 }

@@ -19,7 +19,8 @@ struct waiting {
     bool begun, ended;
 };
 
-/* Memory for the samples of a run; FR_TOO_SMALL without any, FR_BAD_CONFIG for too many paths. */
+/* Memory for the samples of a run: FR_TOO_SMALL if there is no more, FR_BAD_CONFIG for more wheel
+   paths than can be levelled. */
 fr_status begin_waiting(struct vehicle *vehicle);
 fr_status add_waiting(struct path *path);
 
@@ -28,6 +29,10 @@ void store(struct path *path, const fr_real *force, const fr_real *height, size_
 
 /* Store the counts of the same samples, behind those of all paths: a line where some are missing. */
 void store_counts(struct waiting *waiting, const int64_t *counts, size_t count);
+
+/* The next `count` samples of all paths, those of one time beside each other. */
+void interleave(const struct waiting *waiting, size_t paths, size_t count, fr_real *force,
+                fr_real *height);
 
 /* The end of a run: the last count holds. */
 void end_counts(struct waiting *waiting);
