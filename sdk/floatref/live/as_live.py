@@ -1,12 +1,14 @@
 """A recording processed as a stream would process it while the vehicle drove."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from floatref.builtin_pipelines.signal_flows import NEEDS
+from floatref.engine.automatic import run_named_or_best
 from floatref.engine.choosing import AUTO
 from floatref.engine.plugins import plugins
 from floatref.engine.run import Progress, Result
@@ -22,6 +24,15 @@ from floatref.values.recording import Channel, Recording
 
 PIECE_S = 1.0
 """Length in s of the pieces in which a recording is pushed."""
+
+
+Way = Callable[..., Result]
+"""A function that takes recording, pipeline, settings and progress."""
+
+
+def way_of(as_live: bool, diagnostics: bool = False) -> Way:
+    """Return what processes a recording: `run_as_live`, or the whole run with ``diagnostics``."""
+    return run_as_live if as_live else partial(run_named_or_best, diagnostics=diagnostics)
 
 
 def run_as_live(

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from numbers import Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,7 +36,7 @@ def name_channel(given: str | ChannelId) -> ChannelId:
 
 
 def read_declarations(
-    channels: Mapping[str | ChannelId, Declared],
+    channels: Mapping[Any, Declared],
 ) -> dict[ChannelId, UniformClock | None]:
     """Return the clock of every channel; None where samples come with their times.
 
@@ -92,7 +93,7 @@ class Entrance:
         self._clocks = clocks
         self.latest_s: dict[ChannelId, float] = {}
 
-    def check(self, samples: Mapping[str | ChannelId, Samples]) -> dict[ChannelId, Piece]:
+    def check(self, samples: Mapping[Any, Samples]) -> dict[ChannelId, Piece]:
         """Return the samples by channel, in arrays of their own.
 
         Raises InputError for a channel that was not declared, infinite samples, arrays that do not
@@ -144,7 +145,7 @@ class Entrance:
             )
 
 
-def _array(name: object, given: Samples) -> FloatArray:
+def _array(name: object, given: Any) -> FloatArray:
     array = numbers(f"channel {name}", given)
     if array.ndim != 1:
         raise InputError(f"channel {name}: shape {array.shape}; give one dimension, shape (N,)")

@@ -6,23 +6,25 @@ have passed are those that every channel has reached, or from which another chan
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import floor
 from typing import Any
 
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.live.bounds import TICK_S, Bounds
+from floatref.live.bounds import TICK_S, Bounds, Latency
 from floatref.live.declared_channels import Piece
+from floatref.live.forward_pass import ForwardPass, forward_pass_of
 from floatref.live.held_samples import HeldChannel
 from floatref.live.joints import Joints
 from floatref.live.points import LivePoints
-from floatref.live.window_plan import Cut, WindowPlan
+from floatref.live.window_plan import Cut, End, WindowPlan
 from floatref.live.window_run import Processed, WindowRuns, begin_distance
 from floatref.stages.signals import DISTANCE
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
+from floatref.values.needs import FORCE
 from floatref.values.recording import Channel, Recording
 
 
@@ -65,9 +67,10 @@ class Following:
         refused: the first refusal of a window, until any window is accepted.
     """
 
-    def __init__(self, order: Order) -> None:
-        """Begin without samples."""
+    def __init__(self, order: Order, provisional: bool = False) -> None:
+        """Begin without samples; with ``provisional`` points if the channels allow them."""
         self.order = order
+        self.forward = _forward_pass(order) if provisional else None
         self.held = {name: HeldChannel(name, clock) for name, clock in order.clocks.items()}
         self.plan = WindowPlan(order.bounds)
         self.runs = WindowRuns(order.pipelines, order.settings, order.interval_m)
@@ -102,6 +105,13 @@ class Following:
         if self.refused is not None and not self.accepted:
             raise self.refused
 
+    @property
+    def latency(self) -> Latency:
+        """When points are final, and provisional ones there."""
+        bounds = self.order.bounds
+        first_s = None if self.forward is None else TICK_S + bounds.late_s
+        return replace(bounds.latency, provisional_s=first_s)
+
     def _reached(self) -> int | None:
         """Return the last tick that may pass."""
         latest = [each.latest_s for each in self.held.values()]
@@ -124,8 +134,18 @@ class Following:
         cut = self.plan.step(tick, self.distance_m)
         if cut is not None:
             yield from self._process(cut)
+        yield from self._look_ahead(before_s, time_s, cut)
         for each in self.held.values():
             each.drop(self.plan.needed_from(tick))
+
+    def _look_ahead(self, begin_s: float, end_s: float, cut: Cut | None) -> Iterator[LivePoints]:
+        if self.forward is None:
+            return
+        if cut is not None and cut.end is End.SET_BACK:
+            self.forward.begin()
+        points = self.forward.advance(self.held, begin_s, end_s, self.runs.offset_m)
+        if points is not None:
+            yield points
 
     def _process(self, cut: Cut) -> Iterator[LivePoints]:
         done = self.runs.process(cut, self._recording(cut))
@@ -179,6 +199,12 @@ class Following:
         if self.order.reason:
             record["chosen"] = {"by": "auto", "reason": self.order.reason}
         return record
+
+
+def _forward_pass(order: Order) -> ForwardPass | None:
+    force = order.example.find(FORCE, order.tracks[0])
+    clock = None if force is None else order.clocks[force.id]
+    return forward_pass_of(order.example, order.tracks, clock, order.interval_m)
 
 
 def _name(cut: Cut) -> str:

@@ -14,7 +14,7 @@ from floatref.values.recording import Channel
 TIE = 1e-6
 """Share of a step by which a sample may lie behind a limit and still be before it."""
 MOST_S = 60.0
-"""Samples missing for longer than this, in s, are not stored as missing ones: there is no window."""
+"""Samples missing for longer than this, in s, are not stored one by one: no window needs them."""
 EMPTY = frozen(())
 
 

@@ -141,7 +141,9 @@ def _blend(before: ProfileTrack, own: ProfileTrack, weights: FloatArray) -> Prof
     old, new = np.isfinite(before.elevation), np.isfinite(own.elevation)
     w = np.where(old & new, weights, np.where(new, 1.0, 0.0))
     elevation = _mean(before.elevation, own.elevation, w)
-    valid = np.where(w == 0.0, before.valid, np.where(w == 1.0, own.valid, before.valid & own.valid))
+    valid = np.where(
+        w == 0.0, before.valid, np.where(w == 1.0, own.valid, before.valid & own.valid)
+    )
     sigma = None
     if before.sigma is not None or own.sigma is not None:
         sigma = _mean(_known(before), _known(own), w)
@@ -158,6 +160,4 @@ def _known(track: ProfileTrack) -> FloatArray:
 
 def _part(track: ProfileTrack, where: slice) -> ProfileTrack:
     sigma = None if track.sigma is None else track.sigma[where]
-    return replace(
-        track, elevation=track.elevation[where], valid=track.valid[where], sigma=sigma
-    )
+    return replace(track, elevation=track.elevation[where], valid=track.valid[where], sigma=sigma)

@@ -112,8 +112,9 @@ def _without_missing(
             "join the stretches on either side for themselves"
         )
     own = [[track] for track in points.tracks]
-    return own if gap == 0 else [[m, *o] for m, o in zip(missing_points(names, gap), own,
-                                                          strict=True)]
+    return (
+        own if gap == 0 else [[m, *o] for m, o in zip(missing_points(names, gap), own, strict=True)]
+    )
 
 
 def _join(parts: Sequence[list[ProfileTrack]], name: str) -> ProfileTrack:
