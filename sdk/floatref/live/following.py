@@ -115,8 +115,10 @@ class Following:
     def _reached(self) -> int | None:
         """Return the last tick that may pass."""
         latest = [each.latest_s for each in self.held.values()]
-        until_s = max(min(latest), max(latest) - self.order.bounds.late_s)
-        return floor(until_s / TICK_S) if np.isfinite(until_s) else None
+        begun = [each.latest_s for each in self.held.values() if each.values.end > 0]
+        if not begun:
+            return None
+        return floor(max(min(latest), max(begun) - self.order.bounds.late_s) / TICK_S)
 
     def _before_first(self) -> int:
         """Return the tick before the first sample of all."""
