@@ -132,16 +132,18 @@ class Entrance:
             StampedClock(times)
         except InputError as error:
             raise InputError(f"channel {name}: {error}") from error
-        before = self.latest_s.get(name, -np.inf)
-        if times.size and times[-1] - max(before, times[0]) > LEAPS_S:
-            raise InputError(
-                f"channel {name}: time {times[-1]:.9g} s is more than a day behind "
-                f"{max(before, times[0]):.9g} s; begin another stream"
-            )
-        if times.size and not times[0] > before:
+        before = self.latest_s.get(name, times[0] - 1.0 if times.size else 0.0)
+        steps = np.diff(times, prepend=before)
+        if times.size and steps[0] <= 0.0:
             raise InputError(
                 f"channel {name}: time {times[0]:.9g} s comes after {before:.9g} s was pushed; "
                 "push the samples of a channel in order, each once"
+            )
+        if times.size and steps.max() > LEAPS_S:
+            at_s = float(times[steps.argmax()])
+            raise InputError(
+                f"channel {name}: time {at_s:.9g} s is more than a day behind the one before; "
+                "begin another stream"
             )
 
 

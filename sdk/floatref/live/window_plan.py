@@ -99,7 +99,8 @@ class WindowPlan:
         elif max(self.places[-1], distance_m) - distance_m > SET_BACK_M:
             return self._set_back(tick, distance_m)
         self.places.append(max(distance_m, self.places[-1] if self.places else distance_m))
-        return self._stand(tick) or self._join(tick)
+        cut = self._stand(tick)
+        return cut if self.stands_m is not None else self._join(tick)
 
     def needed_from(self, tick: int) -> float:
         """Return the time in s before which no sample is needed, after the step at ``tick``."""

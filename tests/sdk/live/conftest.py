@@ -9,7 +9,7 @@ from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording, Setup
 
-STEP_S = 0.001
+STEP_S = 0.01
 CHANGE = 1.5
 """Acceleration and braking in m/s²."""
 BOUNCE_M, BOUNCE_HZ = 0.01, 1.3
@@ -56,14 +56,15 @@ def make_drive(
         own = np.arange(0.0, end_s, 1.0 / rate)
         return own, np.interp(own, times, places)
 
-    omega = 2.0 * np.pi * BOUNCE_HZ
     force_s, _ = at(rate_hz)
     height_s, height_m = at(height_hz or rate_hz)
     clock, slower = (UniformClock.of(r, start_s) for r in (rate_hz, height_hz or rate_hz))
     channels = []
     for n, track in enumerate(tracks):
-        force = STANDARD_GRAVITY - BOUNCE_M * omega**2 * np.sin(omega * force_s + n)
-        height = 0.3 + BOUNCE_M * np.sin(omega * height_s + n) - road(height_m, n)
+        # The bounce begins at rest; that of two wheel paths differs.
+        omega = 2.0 * np.pi * (BOUNCE_HZ + 0.2 * n)
+        force = STANDARD_GRAVITY + BOUNCE_M * omega**2 * np.cos(omega * force_s)
+        height = 0.3 + BOUNCE_M * (1.0 - np.cos(omega * height_s)) - road(height_m, n)
         channels.append(Channel.of("vertical_specific_force", force, clock, track))
         channels.append(Channel.of("height", height, slower, track))
     if distance == "times":

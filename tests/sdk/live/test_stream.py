@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 import floatref
@@ -49,7 +49,7 @@ def points_of(recording, pipeline, pieces, **more):
         return [*points, *stream.finish()]
 
 
-@settings(max_examples=25)
+@settings(max_examples=20, phases=[Phase.explicit, Phase.reuse, Phase.generate])
 @given(
     st.sampled_from(sorted(CASES)),
     st.sampled_from(["temporal-basic", "temporal-adaptive-hpf-spatial-backward", "spatial-hpf"]),
