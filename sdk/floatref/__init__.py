@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     from floatref.live.points import LivePoints as LivePoints
     from floatref.live.points import join_points as join_points
     from floatref.live.stream import LiveStream as LiveStream
+    from floatref.live.stream import resume_stream as resume_stream
     from floatref.live.stream import start_stream as start_stream
     from floatref.mapping import read_native as read_native
     from floatref.measures import agreement as agreement
@@ -199,6 +200,7 @@ _PUBLIC = {
     "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",
+    "resume_stream": "live.stream",
     "setup_of": "files.recording_directory",
     "short_interval_roughness": "measures",
     "stage_names": "engine.lookup",

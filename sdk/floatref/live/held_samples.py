@@ -125,6 +125,13 @@ class HeldChannel:
         """Return the number of samples held."""
         return self.values.end - self.values.first
 
+    def restore(self, values: FloatArray, times_s: FloatArray, first: int) -> None:
+        """Hold these samples alone, the first of which has the number ``first``."""
+        for pieces, array in ((self.values, values), (self.times, times_s)):
+            pieces.skip_to(first)
+            pieces.append(frozen(array))
+        self._merged = self.values.end
+
     def add(self, piece: Piece) -> int:
         """Append the samples of ``piece``, and return how many came too late."""
         late = min(self.owed, piece.values.size)

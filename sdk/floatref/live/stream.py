@@ -2,6 +2,7 @@
 
 from collections import deque
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from threading import Condition, Thread
 from types import TracebackType
 from typing import Any
@@ -12,6 +13,7 @@ from floatref.live.bounds import LATE_S, Latency
 from floatref.live.declared_channels import Declared, Entrance, Piece, Samples, read_declarations
 from floatref.live.following import Following
 from floatref.live.points import LivePoints
+from floatref.live.saved_state import load_state, save_state
 from floatref.live.starting import settle
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup
@@ -101,6 +103,20 @@ class LiveStream:
             self._changed.notify_all()
         self._thread.join()
         return self.ready()
+
+    def save(self, path: Path | str) -> None:
+        """Write to ``path``, a file, what the final points of all further pushes depend on.
+
+        It waits for the thread. Points that are ready are not in it: read them before. A stream
+        that `resume_stream` makes of it gives the same final points, bit for bit.
+
+        Raises StageError after the end; any error of the thread; InputError if it cannot write.
+        """
+        self._check_open("save")
+        with self._changed:
+            self._changed.wait_for(self._is_idle)
+            self._raise_error()
+            save_state(Path(path), self._following, self._entrance)
 
     def close(self) -> None:
         """End the thread; what is not final is lost. Does nothing after `finish`."""
@@ -195,3 +211,12 @@ def start_stream(
     clocks = read_declarations(channels)
     order = settle(setup, clocks, pipeline, settings, late_s)
     return LiveStream(Following(order, provisional), Entrance(clocks))
+
+
+def resume_stream(path: Path | str) -> LiveStream:
+    """Return the stream that was saved in ``path``; push to it what that one was not given.
+
+    Provisional points begin anew, and are not valid before the vehicle has gone a wavelength.
+    Raises InputError for a file that is no saved stream, or of another version of floatref.
+    """
+    return LiveStream(*load_state(Path(path)))

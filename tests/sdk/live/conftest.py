@@ -32,7 +32,10 @@ def road(x, seed=0):
     rng = np.random.default_rng(seed)
     lengths = np.geomspace(3.0, 60.0, 12)
     phases = rng.uniform(0.0, 2.0 * np.pi, lengths.size)
-    return sum(2e-4 * w**0.8 * np.sin(2.0 * np.pi * x / w + p) for w, p in zip(lengths, phases))
+    return sum(
+        2e-4 * w**0.8 * np.sin(2.0 * np.pi * x / w + p)
+        for w, p in zip(lengths, phases, strict=True)
+    )
 
 
 def make_drive(
@@ -73,7 +76,7 @@ def make_drive(
         stamps = np.maximum.accumulate(stamps + 1e-9 * np.arange(marks.size))
         channels.append(Channel.of("distance", at_m + marks, StampedClock.of(stamps)))
     else:
-        own, where = at(rate_hz)
+        _, where = at(rate_hz)
         where = count_m * np.floor(where / count_m) if count_m else where
         channels.append(Channel.of("distance", at_m + where, clock))
     return Recording(tuple(channels), Setup(profile_interval_m=INTERVAL_M))

@@ -44,7 +44,9 @@ def test_windows_give_what_the_whole_run_gives(steady, pipeline):
     # Where the 1-sigma passes its limit, single points may differ.
     assert np.count_nonzero(live.valid != whole.valid) <= (0 if live.sigma is None else 10)
     # At its end the backward pass of a whole run meets the drift of the whole run.
-    apart = np.abs(live.elevation - whole.elevation)[live.valid & whole.valid][: -round(SETTLES_M / STEP_M)]
+    apart = np.abs(live.elevation - whole.elevation)[live.valid & whole.valid][
+        : -round(SETTLES_M / STEP_M)
+    ]
     # Both passes of a filter that began 1 m off; of an estimator, three of its own 1-sigma.
     sigma = 0.0 if live.sigma is None else np.median(whole.sigma)
     limit = max(2.0 * np.exp(-SETTLED * np.pi), 3.0 * sigma)
@@ -107,8 +109,9 @@ def test_a_window_that_the_pipeline_refuses_has_no_elevation_and_a_reason(drive)
     height = recording.channel("height", "left")
     values = np.array(height.values)
     values[int(120 * 200.0) :] = np.nan
-    channels = [c if c.id != height.id else type(c)(c.id, values, c.clock) for c in
-                recording.channels]
+    channels = [
+        c if c.id != height.id else type(c)(c.id, values, c.clock) for c in recording.channels
+    ]
     result = run_as_live(type(recording)(tuple(channels), recording.setup), "temporal-basic")
     track = result.profile["left"]
     where = result.profile.distance_m

@@ -117,6 +117,7 @@ def test_a_gap_behind_a_standstill_is_missing():
 def test_the_weight_goes_from_zero_to_one_without_a_kink():
     u = np.linspace(-0.5, 1.5, 4001)
     w = smooth_step(u)
-    assert (w[u <= 0.0] == 0.0).all() and (w[u >= 1.0] == 1.0).all()
+    assert (w[u <= 0.0] == 0.0).all()
+    assert (w[u >= 1.0] == 1.0).all()
     assert np.abs(np.diff(w)).max() / (u[1] - u[0]) == pytest.approx(1.875, rel=1e-3)
     assert np.abs(np.diff(w, 2)).max() / (u[1] - u[0]) ** 2 == pytest.approx(5.7735, rel=1e-2)

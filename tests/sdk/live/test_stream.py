@@ -113,7 +113,9 @@ def test_a_channel_that_is_too_late_is_missing_there_and_reported(drive, pieces)
     profile = join_points(points)
     assert any(
         line.startswith("channel right.height: ")
-        and line.endswith("samples came more than 5 s later than another channel; counted as missing")
+        and line.endswith(
+            "samples came more than 5 s later than another channel; counted as missing"
+        )
         for each in points
         for line in each.events
     )
@@ -128,7 +130,7 @@ def test_a_channel_that_never_comes_is_named(drive):
     recording = drive([(20.0, 40.0)])
     with stream_of(recording, "temporal-basic") as stream:
         stream.push({c.id: c.values for c in recording.channels if c.id.name != "height"})
-        with pytest.raises(InputError, match="channel left.height: "):
+        with pytest.raises(InputError, match=r"channel left\.height: "):
             stream.finish()
 
 

@@ -1,5 +1,7 @@
 """Windows: they cover the run, overlap as stated, and depend on the distance alone."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -58,7 +60,7 @@ def test_windows_cover_all_travel(legs, bounds):
 def test_windows_overlap_by_run_in_and_run_out(legs, bounds):
     places = places_of(legs)
     cuts, _ = cuts_of(places, bounds)
-    for cut, behind in zip(cuts[:-1], cuts[1:], strict=True):
+    for cut, behind in pairwise(cuts):
         if cut.joint_s is None:
             assert behind.begin_s >= cut.end_s or behind.begin_s >= cut.end_s - BEFORE_S
             continue
