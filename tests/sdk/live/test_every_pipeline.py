@@ -47,9 +47,9 @@ def test_a_stream_equals_the_recording_as_live_and_is_as_late_as_declared(
         during = [p for p in points if p.state is State.FINAL]
         points += stream.finish()
     same(join_points(points), expected.profile)
-    assert len(during) == 1
+    assert during
     # The run goes on for less than the latency behind the joint.
-    joint_m = during[0].distance_m[-1]
+    joint_m = during[-1].distance_m[-1]
     left_m = float(np.nanmax(distance.values)) - joint_m
     assert left_m < latency.travelled_m + 40.0 * latency.then_s
     provisional = [p for p in points if p.state is State.PROVISIONAL]
