@@ -59,7 +59,7 @@ def test_the_example_runs():
         "source": ({k: v[i : i + 500] for k, v in values.items()} for i in range(0, 30_000, 500)),
         "show": lambda *given: shown.append(given),
     }
-    exec(compile(code.replace("16000.0", "1000.0"), "live.md", "exec"), names)  # noqa: S102
+    exec(compile(code.replace("16000.0", "1000.0"), "live.md", "exec"), names)
     # How many are there before the end depends on the thread.
     assert {str(state) for state, *_ in shown} <= {"provisional"}
     assert 590.0 < names["profile"].length_m < 600.0

@@ -65,8 +65,8 @@ class LiveStream:
         without has (times in s, samples). Each channel has its own order, and may be late. Samples
         are copied. It waits while too many samples are in the queue.
 
-        Raises InputError for samples that cannot be used, of which none is then taken; StageError
-        after `finish` or `close`; and any error of the thread.
+        Raises InputError for samples that cannot be used, and then takes no sample of the push;
+        StageError after `finish` or `close`; and any error of the thread.
         """
         self._check_open("push")
         pieces = self._entrance.check(samples)

@@ -80,4 +80,3 @@ def test_they_do_not_depend_on_the_pieces(recording, pieces):
     )
     for a, b in zip(joined(one, State.PROVISIONAL), joined(two, State.PROVISIONAL), strict=True):
         np.testing.assert_array_equal(a, b)
-
