@@ -148,6 +148,11 @@ class Entrance:
 
 
 def _array(name: object, given: Any) -> FloatArray:
+    if type(given) is np.ndarray and given.dtype == np.float64 and given.ndim == 1:
+        own = np.array(given)
+        if not np.isinf(own).any():
+            own.flags.writeable = False
+            return own
     array = numbers(f"channel {name}", given)
     if array.ndim != 1:
         raise InputError(f"channel {name}: shape {array.shape}; give one dimension, shape (N,)")

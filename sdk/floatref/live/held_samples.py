@@ -105,6 +105,8 @@ class HeldChannel:
         self.passed_s = -np.inf
         self.owed = 0
         self._merged = 0
+        # A push asks for the time of the last sample of every channel.
+        self._rate = (0, 1) if clock is None else (clock.rate.numerator, clock.rate.denominator)
 
     @property
     def latest_s(self) -> float:
@@ -202,5 +204,6 @@ class HeldChannel:
         return max(0, floor((time_s - self.clock.start_s) * float(self.clock.rate) + TIE) + 1)
 
     def _time(self, number: int) -> float:
+        """Return the time of a sample in s, as `UniformClock.times` has it."""
         assert self.clock is not None
-        return float(self.clock.times(1, number)[0])
+        return self.clock.start_s + number * self._rate[1] / self._rate[0]
