@@ -58,7 +58,8 @@ def test_samples_that_come_after_their_time_has_passed_are_missing():
     held = HeldChannel(NAME, UniformClock.of(10.0))
     held.add(Piece(np.arange(10.0)))
     held.pass_time(2.0)
-    assert held.add(Piece(np.arange(10.0, 30.0))) == 11
+    assert held.add(Piece(np.arange(10.0, 25.0))) == 11
+    assert held.add(Piece(np.arange(25.0, 30.0))) == 0
     values = held.cut(-np.inf, np.inf).values
     np.testing.assert_array_equal(values[:10], np.arange(10.0))
     assert np.isnan(values[10:21]).all()
