@@ -4,6 +4,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+import golden_kalman as kalman
+import golden_road_prior as road_prior
 import numpy as np
 from numpy.typing import NDArray
 
@@ -130,9 +132,8 @@ def in_time() -> Iterator[Vector]:
         "frequency": s57.cut_off_frequency(slow),
         "wave_number": s57.cut_off_wave_number(slow, 0.025),
     }
-    yield _one(
-        "adaptive-cut-off", "(5.3)", {**SCHEDULE, "interval_m": 0.025}, {"speed": slow}, outputs
-    )
+    settings = {**SCHEDULE, "interval_m": 0.025}
+    yield _one("adaptive-cut-off", "(5.3)", settings, {"speed": slow}, outputs)
     controlled = s56.controlled_velocity(x, slow, 1 / rate_hz)
     gains = {
         "rate_hz": rate_hz,
@@ -140,9 +141,8 @@ def in_time() -> Iterator[Vector]:
         "proportional": 0.001,
         "integral_per_s": 0.834,
     }
-    yield _one(
-        "local-suppression", "(5.1), (5.2)", gains, {"x": x, "speed": slow}, {"y": controlled}
-    )
+    inputs = {"x": x, "speed": slow}
+    yield _one("local-suppression", "(5.1), (5.2)", gains, inputs, {"y": controlled})
 
 
 def _one(stage: str, equation: str, settings: Numbers, inputs: Any, outputs: Any) -> Vector:
@@ -198,6 +198,14 @@ def whole() -> Iterator[Vector]:
     )
 
 
+def smoothers() -> Iterator[Vector]:
+    """Yield both smoothers through a stop, smoothed by the whole run."""
+    yield _one(*kalman.vector(distances(stop(300, 100.0, 8.0, 0.3), 100.0)))
+    given = road_prior.sensors(distances(stop(360, 100.0, 8.0, 0.3), 100.0), 100.0)
+    outputs = {"elevation": road_prior.elevation(road_prior.SETTINGS, given, np.longdouble)}
+    yield _one("road-prior-smoother", "(2.2), (2.4), (6.17)", road_prior.SETTINGS, given, outputs)
+
+
 def measures() -> Iterator[Vector]:
     """Yield what is done to a finished profile."""
     z = wave(300, (0.02, 187.0), (0.004, 31.0), (0.001, 7.0))
@@ -247,5 +255,6 @@ def validity() -> Iterator[Vector]:
 
 def vectors() -> Iterator[Vector]:
     """Yield all vectors."""
-    for group in (sections, varying_sections, in_time, over_distance, whole, measures, validity):
+    groups = sections, varying_sections, in_time, over_distance, whole, smoothers, measures
+    for group in (*groups, validity):
         yield from group()

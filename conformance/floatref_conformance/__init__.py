@@ -6,12 +6,15 @@ Units and axes are those of `floatref`: SI, ISO 8855, IRI in m/km.
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
 from floatref_conformance.editions import EDITION as EDITION
 from floatref_conformance.editions import EDITIONS as EDITIONS
 
+# As in typing, whose import takes as long as all of this: Ctrl-C in it would be a traceback.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from floatref_conformance.checks.interface import Check as Check
     from floatref_conformance.devices.interface import DeviceKind as DeviceKind
     from floatref_conformance.hookspecs import hookimpl as hookimpl
@@ -29,7 +32,7 @@ _PUBLIC = {
 __all__ = ["EDITION", "EDITIONS", *_PUBLIC]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     """Import the public name ``name``."""
     if name not in _PUBLIC:
         raise AttributeError(f"module floatref_conformance has no attribute {name!r}")

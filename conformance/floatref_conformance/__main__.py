@@ -1,5 +1,12 @@
-"""`python -m floatref_conformance` is the `conformance` command."""
+"""`python -m floatref_conformance` is the `conformance` command, started by `start`."""
 
-from floatref_conformance.cli.main import main
+from floatref.cli.program.starting import start_program
 
-main()
+
+def start() -> None:
+    """Run the `conformance` command."""
+    start_program("floatref_conformance.cli.main", "Interrupted: no verdict")
+
+
+if __name__ == "__main__":
+    start()

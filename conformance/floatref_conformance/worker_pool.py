@@ -6,11 +6,14 @@ would print a traceback of its own, or die while others wait for it.
 
 import signal
 import tempfile
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import active_children, get_context, resource_tracker
 from tempfile import TemporaryDirectory
+from threading import current_thread, main_thread
+from types import FrameType
 from typing import Any, TypeVar
 
 Result = TypeVar("Result")
@@ -56,7 +59,18 @@ def map_in_order(
         yield map(do, *items)
         return
     with worker_pool(processes) as workers:
-        yield workers.map(do, *items)
+        yield _in_order(deque(workers.submit(do, *each) for each in zip(*items, strict=False)))
+
+
+def _in_order(coming: deque[Future[Result]]) -> Iterator[Result]:
+    """Yield the results of ``coming``, each of which is then dropped.
+
+    The `map` of a pool cancels what is coming after an error. Where the processes have ended
+    before the pool is shut down, its thread fails at a cancelled one: in Python 3.11 with a
+    traceback.
+    """
+    while coming:
+        yield coming.popleft().result()
 
 
 def _prepare_worker(scratch: str) -> None:
@@ -74,10 +88,38 @@ def _without_interrupts() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    # It changes the mask itself, once.
-    resource_tracker.ensure_running()
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    with _handlers_held_back():
+        # It changes the mask itself, once.
+        resource_tracker.ensure_running()
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            yield
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _handlers_held_back() -> Iterator[None]:
+    """Call the handlers of Ctrl-C and SIGTERM afterwards, for the first of them that comes.
+
+    A mask is of one thread. Python calls a handler here for a signal that another thread has
+    taken, as one of a numerical library: a process that has been started, but not been given its
+    task, would print a traceback.
+    """
+    if current_thread() is not main_thread():
+        yield
+        return
+    heard: list[int] = []
+    before: dict[int, Callable[[int, FrameType | None], Any]] = {}
     try:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            handler = signal.getsignal(number)
+            if callable(handler):
+                before[number] = handler
+                signal.signal(number, lambda number, _: heard.append(number))
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for each, handler in before.items():
+            signal.signal(each, handler)
+        if heard:
+            before[heard[0]](heard[0], None)

@@ -15,12 +15,15 @@ missing. IRI is in m/km.
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
-from floatref.values.display.views import Place, place_views
+from floatref.values.display.views import place_views
 from floatref.version import __version__ as __version__
 
+# As in typing, whose import takes as long as all of this: Ctrl-C in it would be a traceback.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from floatref.c.c_sources import c_sources as c_sources
     from floatref.engine.lookup import make_stage as make_stage
     from floatref.engine.lookup import pipeline as pipeline
@@ -214,18 +217,18 @@ __all__ = ["__version__", *_PUBLIC]
 # Methods of values, such as `Profile.plot`, that rooms above `values` carry out.
 place_views(
     {
-        "profile_figure": Place("floatref.plots.profile_figure", "profile_figure"),
-        "profile_iri": Place("floatref.measures.valid_iri", "profile_iri"),
-        "profile_to_pandas": Place("floatref.notebook.tables", "profile_to_pandas"),
-        "profile_to_xarray": Place("floatref.notebook.tables", "profile_to_xarray"),
-        "recording_figure": Place("floatref.plots.recording_figure", "recording_figure"),
-        "recording_to_pandas": Place("floatref.notebook.tables", "recording_to_pandas"),
-        "recording_to_xarray": Place("floatref.notebook.tables", "recording_to_xarray"),
+        "profile_figure": ("floatref.plots.profile_figure", "profile_figure"),
+        "profile_iri": ("floatref.measures.valid_iri", "profile_iri"),
+        "profile_to_pandas": ("floatref.notebook.tables", "profile_to_pandas"),
+        "profile_to_xarray": ("floatref.notebook.tables", "profile_to_xarray"),
+        "recording_figure": ("floatref.plots.recording_figure", "recording_figure"),
+        "recording_to_pandas": ("floatref.notebook.tables", "recording_to_pandas"),
+        "recording_to_xarray": ("floatref.notebook.tables", "recording_to_xarray"),
     }
 )
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
     """Import the public name ``name``."""
     if name not in _PUBLIC:
         raise AttributeError(f"module floatref has no attribute {name!r}")

@@ -1,5 +1,5 @@
 """`python -m floatref` is the `floatref` command."""
 
-from floatref.cli.main import main
+from floatref.cli.program.starting import start
 
-main()
+start()

@@ -5,15 +5,12 @@
  * Built with the address and the undefined behaviour sanitizer. Memory and arrays have exactly the
  * sizes that the library was given, and a refused call may change neither the object nor an output.
  */
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
-#include "floatref.h"
+#include "c_draws.h"
 
-enum { MOST = 200, POINTS = 4000, LARGEST = 1 << 20, CALLS = 32, KINDS = 13 };
+enum { LARGEST = 1 << 20, CALLS = 42, KINDS = 16 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -29,34 +26,20 @@ typedef union any_config {
     fr_matched_high_pass_config matched_high_pass;
     fr_iri_config iri;
     fr_screening_config screening;
+    fr_road_prior_config road_prior;
+    fr_kalman_filter_config kalman_filter;
+    fr_kalman_config kalman;
 } any_config;
 
-typedef struct arrays {
-    fr_real *x, *h, *f, *s, *y, *z;
-    int64_t *n;
-    fr_span *spans;
-    size_t count, capacity, written;
-} arrays;
-
-static uint64_t state;
-
-static uint32_t draw(uint32_t below)
+static void set_kalman(fr_kalman_filter_config *c, double count_m)
 {
-    state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    return (uint32_t)(state >> 33) % below;
-}
-
-static double odd_number(void)
-{
-    static const double odd[] = {0.0,   -0.0,  1e-300, -1.0, 1e300,     INFINITY, -INFINITY,
-                                 1e-30, 1e-12, 0.5,    2.0,  3.4e38,    1e12,     0.25};
-    uint32_t k = draw(sizeof odd / sizeof *odd + 1);
-    return k == sizeof odd / sizeof *odd ? NAN : odd[k];
-}
-
-static double number(void)
-{
-    return draw(400) == 0 ? odd_number() : (double)draw(2000) / 100.0;
+    c->travel.rate_hz = 50;
+    c->travel.metres_per_count = count_m;
+    c->late_s = draw(2) * 0.5;
+    c->gnss = (int)draw(4) > 0;
+    c->reflects = (int)draw(2);
+    c->missing = (int)draw(2);
+    c->readings = 1 + (int)draw(20);
 }
 
 #define KIND(number, name, line)                                                                \
@@ -94,9 +77,29 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
         KIND(11, iri, c.interval_m = interval)
         KIND(12, screening, c.rate_hz = 250; c.metres_per_count = count_m;
              c.spread_mps2 = draw(2) * 0.1)
+        KIND(13, road_prior, c.rate_hz = 250; c.metres_per_count = count_m;
+             c.interval_m = interval; c.node_rate_hz = 10.0 + draw(300); c.lag_s = 0.1 + 0.1 * draw(9);
+             c.missing = (int)draw(2); c.back = (int)draw(2); c.fastest_mps = 20.0 + draw(99))
+        KIND(14, kalman_filter, set_kalman(&c, count_m))
+        KIND(15, kalman, set_kalman(&c.filter, count_m); c.interval_m = 10 * interval; c.lag_s = 2;
+             c.gnss_hz = 5; c.fastest_mps = 10)
     default:
         return FR_BAD_CONFIG;
     }
+}
+
+/* A reading of GNSS at a sample near those that come next. */
+static fr_status read_gnss(int smoother, void *o)
+{
+    double values[4], variances[4];
+    int64_t sample = draw(9) ? (int64_t)draw(2500) : -(int64_t)draw(3);
+    double *given = draw(3) ? NULL : variances;
+    for (int i = 0; i < 4; i++) {
+        values[i] = number();
+        variances[i] = draw(3) ? NAN : number();
+    }
+    return smoother ? fr_kalman_push_gnss(o, sample, draw(99) ? values : NULL, given)
+                    : fr_kalman_filter_push_gnss(o, sample, draw(99) ? values : NULL, given);
 }
 
 /* One of the calls; it may be of another kind of object. */
@@ -105,6 +108,8 @@ static fr_status call(int which, void *o, arrays *a)
     size_t n = a->count, room = a->capacity, *w = &a->written;
     fr_cut_off_config cut_off = fr_cut_off_defaults();
     fr_timer_distortion_config timer = {0.05, 3.576, 25.0};
+    fr_imu imu = {a->imu[0], a->imu[1], a->imu[2], a->imu[3], a->imu[4], a->imu[5]};
+    int64_t left_out[4];
     switch (which) {
     case 12: return fr_screening_push(o, a->x, draw(9) ? a->h : NULL, a->n, n, a->spans, room, w);
     case 30: return fr_screening_finish(o, a->spans, room, w);
@@ -121,9 +126,26 @@ static fr_status call(int which, void *o, arrays *a)
     case 9: return fr_local_suppression_push(o, a->x, a->f, n, a->y, room, w);
     case 10: return fr_matched_high_pass_push(o, a->x, a->h, a->f, n, a->y, room, w);
     case 11: return fr_iri_push(o, a->x, n, a->y, room, w);
-    case 13: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
-    case 14: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
-    case 15: return fr_high_pass_set_finish(o);
+    case 13: return fr_road_prior_push(o, a->x, a->h, a->n, n, a->y, a->z, a->b, room, w);
+    case 38:
+        return fr_road_prior_push_levelled(o, a->x, a->h, a->n, draw(2) ? a->p : NULL,
+                                           draw(2) ? a->p : NULL, n, a->y, a->z, a->b, room, w);
+    case 39: return fr_road_prior_finish(o, a->y, a->z, a->b, room, w);
+    case 40: return fr_high_pass_set_height(o, a->h, n, a->y, room, w);
+    case 32: return fr_high_pass_set_reverse(o, a->x, n, a->y, room, w);
+    case 33: return fr_high_pass_set_finish(o);
+    case 14:
+        if (draw(2))
+            return read_gnss(0, o);
+        return fr_kalman_filter_push(o, &imu, a->imu[6], a->n, n, a->heights, room, w);
+    case 15:
+        if (draw(2))
+            return read_gnss(1, o);
+        return fr_kalman_push(o, &imu, a->imu[6], a->n, n, a->y, a->z, a->b, room, w);
+    case 34: return fr_kalman_filter_finish(o, a->heights, room, w);
+    case 35: return fr_kalman_finish(o, a->y, a->z, a->b, room, w);
+    case 36: return fr_kalman_filter_left_out(o, left_out);
+    case 37: return fr_kalman_left_out(o, draw(9) ? left_out : NULL);
     case 16: return fr_adaptive_set_velocity(o, a->x, a->f, n, a->y, room, w);
     case 17: return fr_adaptive_set_height(o, a->h, a->f, n, a->y, room, w);
     case 18: return fr_adaptive_set_reverse(o, a->x, a->f, n, a->y, room, w);
@@ -140,45 +162,6 @@ static fr_status call(int which, void *o, arrays *a)
     case 28: return fr_cut_off_wave_number(&cut_off, number(), a->x, n, a->y, room, w);
     default: return fr_timer_distortion_steps(&timer, a->f, n, a->y, room, w);
     }
-}
-
-static fr_real *drawn_reals(size_t count)
-{
-    fr_real *x = malloc(count * sizeof *x + (count == 0));
-    for (size_t i = 0; i < count; i++)
-        x[i] = (fr_real)number();
-    return x;
-}
-
-static arrays drawn_arrays(int64_t *counts)
-{
-    arrays a = {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, draw(4) ? draw(MOST) : draw(3), 0, 0};
-    a.capacity = draw(6) ? POINTS : draw(MOST);
-    a.x = drawn_reals(a.count);
-    a.h = drawn_reals(a.count);
-    a.f = drawn_reals(a.count);
-    a.s = drawn_reals(a.count);
-    a.y = drawn_reals(a.capacity);
-    a.z = drawn_reals(a.capacity);
-    a.spans = malloc(a.capacity * sizeof *a.spans + (a.capacity == 0));
-    a.n = malloc(a.count * sizeof *a.n + (a.count == 0));
-    for (size_t i = 0; i < a.count; i++)
-        a.n[i] = *counts += draw(5000) == 0 ? (draw(2) ? -300000 : 1) * ((int64_t)1 << draw(33))
-                                            : (int64_t)draw(60);
-    *counts = *counts > ((int64_t)1 << 52) || *counts < -((int64_t)1 << 52) ? 0 : *counts;
-    return a;
-}
-
-static void release(arrays *a)
-{
-    free(a->x);
-    free(a->h);
-    free(a->f);
-    free(a->s);
-    free(a->y);
-    free(a->z);
-    free(a->n);
-    free(a->spans);
 }
 
 static int fail(const char *what, int kind, int which)

@@ -25,10 +25,10 @@ ROOMS = {
 }
 
 
-def tracked() -> list[str]:
+def tracked(*options: str) -> list[str]:
     """Return the files under version control."""
     return subprocess.run(
-        ["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True
+        ["git", "ls-files", *options], cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout.splitlines()
 
 
@@ -68,3 +68,13 @@ def test_core_and_extras_are_those_that_users_script_against() -> None:
         "dev",
     }
     assert set(PROJECT["scripts"]) == {"floatref", "conformance"}
+
+
+def test_texts_end_their_lines_alike_and_the_rest_is_left_as_it_is() -> None:
+    """As `.gitattributes` says: LF in the repository and in every clone, or bytes as they are."""
+    for line in tracked("--eol"):
+        (stored, _, *attributes), name = line.split("\t")[0].split(), line.split("\t")[1]
+        asked = " ".join(attributes).removeprefix("attr/")
+        assert asked == "-text" or "eol=lf" in asked, name
+        assert asked == "-text" or stored in ("i/lf", "i/none"), f"{name}: {stored}"
+        assert stored != "i/-text" or asked == "-text", f"{name}: name its suffix as binary"

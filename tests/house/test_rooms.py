@@ -25,6 +25,9 @@ SAME_ROLE = {
 
 ROOMS_OF_TESTS = {
     "sdk/estimators/kalman/plain": "a second filter, written plainly, with fixtures of its own",
+    "sdk/c/kalman": "the Kalman objects of the C library, which is one package in Python",
+    "sdk/c/kalman/sdk": "the same held to the SDK, with fixtures of their own",
+    "sdk/c/road_prior": "the road prior of the C library, which is one package in Python",
 }
 """Folders of tests that mirror no room."""
 

@@ -38,6 +38,7 @@ ALLOWED: dict[str, dict[str, str]] = {
     "conformance/floatref_conformance/render/junit.py": {"none": "a value that scripts read"},
     "conformance/floatref_conformance/render/templates/page.html.j2": {"'none'": "HTML"},
     "conformance/floatref_conformance/render/templates/parts.html.j2": {"is not none": "Jinja"},
+    "docs/embedded.md": {"arm-none-eabi": "the name of a compiler"},
     "docs/certify.md": {"`none`": "the value of an option"},
     "docs/scenario.md": {"none": "a value of a key"},
     "docs/native-files.md": {"clock `none`": "a value in the output of `floatref channels`"},

@@ -23,7 +23,7 @@ DESCRIPTION = "device.json"
 
 @click.command()
 @click.option(
-    "--out", "out", type=click.Path(path_type=Path), required=True, help="New folder to write."
+    "-o", "--out", type=click.Path(path_type=Path), required=True, help="New folder to write."
 )
 @click.option(
     "--effort",

@@ -9,7 +9,7 @@ from typing import NoReturn
 
 import click
 
-from floatref.cli.lazy import raise_interrupt
+from floatref.cli.program.interrupts import raise_interrupt
 from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.cli.no_verdict import FAULT_OF_THE_SUITE, drop_output, in_one_line
 from floatref_conformance.errors import SuiteError

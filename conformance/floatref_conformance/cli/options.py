@@ -1,9 +1,12 @@
 """What the options of `run` and `replay` mean."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from math import isfinite
 from pathlib import Path
 
 from floatref.errors import InputError
+from floatref_conformance.case_files import FOLDER
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.judge.events import Renderer
@@ -39,3 +42,17 @@ def writers_into(folder: Path | None) -> list[Renderer]:
     needs_jinja(NAME)
     writers = (CaseFiles, JsonReport, JUnitReport, HtmlReport)
     return [writer.into(folder) for writer in writers]
+
+
+@contextmanager
+def reports_into(folder: Path | None) -> Iterator[list[Renderer]]:
+    """Yield what `writers_into` returns; a run without a verdict leaves no new, empty folder."""
+    new = [] if folder is None else [folder / FOLDER, folder, *folder.parents]
+    new = [path for path in new if not path.exists()]
+    try:
+        yield writers_into(folder)
+    except BaseException:
+        for path in new:
+            with suppress(OSError):
+                path.rmdir()
+        raise

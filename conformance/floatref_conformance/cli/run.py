@@ -1,5 +1,6 @@
 """`conformance run`: judge a device."""
 
+from contextlib import ExitStack
 from pathlib import Path
 
 import click
@@ -8,7 +9,7 @@ from floatref_conformance.case_files import read_cases
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.cli.following import follow
-from floatref_conformance.cli.options import class_of, limit_time, writers_into
+from floatref_conformance.cli.options import class_of, limit_time, reports_into
 from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.in_processes import refuse_processes
@@ -111,32 +112,33 @@ def run(
     waivers = {} if waive is None else read_waivers(waive, registry.checks)
     kept = () if report is None else read_cases(report, edition)
     device = registry.device(spec)
-    with close_on_error(device):
-        limit_time(device, device_timeout)
-        plan = Plan(
-            spec,
-            device,
-            checks,
-            left_out,
-            class_of(device, device_class),
-            seed,
-            Effort(effort),
-            kept,
-            searching=getattr(device, "searchable", True),
-            ahead=True,
-            waivers=waivers,
-            timeout_s=device_timeout,
-            report=report,
-            edition=find_edition(edition),
-        )
-        if plan.searching:
-            check_installed()
-        refuse_processes(plan, jobs)
-        writers = writers_into(report)
-    if as_json:
-        writers.append(JsonOutput(click.echo))
-    terminal = TerminalRenderer(make_console(stderr=as_json), verbose)
-    finished = follow(plan, terminal, writers, jobs)
+    with ExitStack() as folders:
+        with close_on_error(device):
+            limit_time(device, device_timeout)
+            plan = Plan(
+                spec,
+                device,
+                checks,
+                left_out,
+                class_of(device, device_class),
+                seed,
+                Effort(effort),
+                kept,
+                searching=getattr(device, "searchable", True),
+                ahead=True,
+                waivers=waivers,
+                timeout_s=device_timeout,
+                report=report,
+                edition=find_edition(edition),
+            )
+            if plan.searching:
+                check_installed()
+            refuse_processes(plan, jobs)
+            writers = folders.enter_context(reports_into(report))
+        if as_json:
+            writers.append(JsonOutput(click.echo))
+        terminal = TerminalRenderer(make_console(stderr=as_json), verbose)
+        finished = follow(plan, terminal, writers, jobs)
     if waive is not None:
         check_used(waivers, finished, waive)
     context.exit(finished.verdict.exit_code)

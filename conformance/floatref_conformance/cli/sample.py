@@ -34,7 +34,9 @@ KINDS = {
 
 @click.command()
 @click.argument("kind", type=click.Choice(tuple(KINDS)))
-@click.option("--out", required=True, type=click.Path(path_type=Path), help="New folder to write.")
+@click.option(
+    "-o", "--out", required=True, type=click.Path(path_type=Path), help="New folder to write."
+)
 @click.option(
     "--seed", type=click.IntRange(min=0), default=0, show_default=True, help="Draws everything."
 )

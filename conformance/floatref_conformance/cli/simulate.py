@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("run")
-@click.option("--out", required=True, type=click.Path(path_type=Path), help="Recording directory.")
+@click.option(
+    "-o", "--out", required=True, type=click.Path(path_type=Path), help="Recording directory."
+)
 @click.option("--seed", type=click.IntRange(min=0), help="Draws road and errors [default: 0].")
 @click.option("--truth", type=click.Path(path_type=Path), help="Profile directory of the truth.")
 @click.option(

@@ -1,5 +1,6 @@
 """The terminal: a progress bar or plain lines while it runs, then a table and the verdict."""
 
+import textwrap
 from errno import EPIPE
 from typing import Any
 
@@ -100,7 +101,7 @@ class TerminalRenderer:
     def _print_result(self, result: RunResult) -> None:
         self.close()
         self.console.print(check_table(result, self.console), crop=False)
-        for line in result_lines(result, self.verbose):
+        for line in result_lines(result, self.verbose, self.console.width):
             self._print(line)
 
     def _print(self, text: str) -> None:
@@ -118,20 +119,29 @@ def make_console(stderr: bool = False) -> PipedConsole:
     return console
 
 
-def result_lines(result: RunResult, verbose: bool = False) -> list[str]:
+def result_lines(result: RunResult, verbose: bool = False, width: int = PLAIN_WIDTH) -> list[str]:
     """Return the lines about ``result`` below the table: the checks, the verdict, what to do.
 
-    Those of a check without a failure or a warning are there if ``verbose``.
+    Those of a check without a failure or a warning are there if ``verbose``. The list of what was
+    not run is wrapped in ``width`` columns.
     """
     lines: list[str] = []
     for check in result.checks:
         if check.outcome is not Outcome.SKIP or check.cases:
             lines += _check_lines(check, result.device_class, verbose)
     lines += [wording.replayed_line(replayed) for replayed in result.replayed]
-    lines += [*wording.not_run_lines(result), wording.verdict_line(result)]
+    lines += [_wrap(line, width) for line in wording.not_run_lines(result)]
+    lines.append(wording.verdict_line(result))
     if result.verdict is Verdict.FAIL:
         lines += _what_to_do(result)
     return lines
+
+
+def _wrap(line: str, width: int) -> str:
+    """Return ``line``, wrapped at words; the lines behind the first are indented."""
+    return textwrap.fill(
+        line, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )
 
 
 def _check_lines(check: CheckResult, device_class: DeviceClass, verbose: bool) -> list[str]:

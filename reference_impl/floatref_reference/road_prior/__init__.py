@@ -6,6 +6,8 @@
 - `model`: the linear state-space model and its discretization.
 - `smoother`: Kalman filter forward, smoother of Rauch, Tung and Striebel backward.
 - `least_squares`: the same posterior from one least-squares problem, with matrices of its own.
+- `encoder`: longitudinal acceleration from the encoder.
+- `fixed_lag`, `lag_sections`: the same smoother part by part, in bounded memory.
 - `levelling`, `lines`: the vertical acceleration by the attitude that an inertial unit measures.
 
 It is not in the dissertation. A high-pass filter in time forgets the road while the vehicle

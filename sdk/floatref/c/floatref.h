@@ -70,7 +70,9 @@ enum {
     FR_OUTPUT_FULL = 10,   /* the output has no room; *written is the room that is needed */
     FR_TOO_MANY = 11,      /* more samples in one push than memory can hold */
     FR_INCOMPLETE_SET = 12, /* not all signals of the set have passed with equally many samples */
-    FR_OTHER_SPEED = 13    /* signals of one set were given different speeds */
+    FR_OTHER_SPEED = 13,   /* signals of one set were given different speeds */
+    FR_TOO_LATE = 14,      /* the sample of a GNSS reading has been filtered, or has a reading */
+    FR_QUEUE_FULL = 15     /* more GNSS readings wait than the setting allows */
 };
 
 /* What happens to a missing (NaN) sample. */
@@ -441,6 +443,84 @@ FR_API fr_status fr_matched_high_pass_push(fr_matched_high_pass *matched,
                                            size_t *written);
 
 /* ---------------------------------------------------------------------------------------------
+ * Flags of a point of a smoother, bit by bit; 0 is a valid point.
+ */
+enum {
+    FR_POINT_MISSING = 1,   /* samples are missing since the point before, or its height is */
+    FR_POINT_LEAP = 2,      /* behind or before a leap of the height sensor at a standstill */
+    FR_POINT_UNCERTAIN = 4, /* the 1-sigma is too large for the road */
+    FR_POINT_UNSETTLED = 8  /* the lag was too short: readings behind it may still change the point */
+};
+
+/* ---------------------------------------------------------------------------------------------
+ * The road-prior smoother of one wheel path, with a fixed lag: in place of both integrations and
+ * all high-pass filters. The road is a process in distance, which does not change at a stop. Points
+ * come out in sections of half a lag, with at least the lag behind them, in bounded memory. A
+ * standstill of any length takes no more; what a lag is too short for is flagged.
+ *
+ * All of it is computed in double, in the float build too. Of memory, a node takes 480 bytes, a
+ * point 48 and a second of the lag 3720 and 248 for each m/s of `fastest_mps`; so the lag decides,
+ * see docs/c-library.md. A call that gives points out takes far longer than others.
+ */
+typedef struct fr_road_prior_config {
+    double rate_hz;          /* samples per second, 10 at least; no default */
+    double metres_per_count; /* of the encoder; no default */
+    double interval_m;       /* between points; no default */
+    double gravity_mps2;     /* taken from every acceleration: 9.80665 for a specific force; 0 */
+    double node_rate_hz;     /* nodes per second, 10 to 1000, of the filter; 500 */
+    double lag_s;            /* least time from a point to its output; 60 */
+    double fastest_mps;      /* speed above which the lag is shorter; 40 */
+    double tolerance_m;      /* a point that readings to come may change by more, as 1-sigma behind
+                                the high-pass, is FR_POINT_UNSETTLED; 1e-4 */
+    double wavelength_m;     /* cut-off of each pass of HPF_B3x2, for the 1-sigma; 105.91 */
+    /* What sensors, vehicle and road are taken for, as in the SDK. Densities per sqrt(Hz). */
+    double acceleration;         /* white noise of the accelerometer in m/s^2; 1.5e-4 */
+    double acceleration_bias;    /* 1-sigma of its bias at the start in m/s^2; 0.03 */
+    double acceleration_walk;    /* random walk of the bias in m/s^2 per sqrt(s); 1e-4 */
+    double walk_along;           /* what acceleration along the road adds, in 1/sqrt(s); 1.6e-3 */
+    double missing_acceleration; /* in place of `acceleration` for missing samples; 0.3 */
+    double reading_m;            /* least 1-sigma of a height as one of the road; 1e-4 */
+    double road_m;               /* q = G_s/2 of (2.2); 4e-6 */
+    double long_waves_per_m;     /* G_a/2 of (2.4); 2e-7 */
+    double road_reach_m;         /* distance after which the road is forgotten; 150 */
+    double road_memory_m;        /* travel over which the run's own road takes over, 32 at least; 300 */
+    double edge_sigmas;          /* a height at a standstill so far off is an edge; 6 */
+    double lean_expected_rad, lean_sigma_rad; /* of the accelerometer's axis forward; 0, 0.03 */
+    double tilt_expected, tilt_sigma; /* pitch per acceleration, rad per m/s^2; 0, 0.01 */
+    double pitch_hz, pitch_damping;   /* of the pitch response; 1.6, 0.3 */
+    double height_m;                  /* 1-sigma of a height, for the 1-sigma of the result; 4e-5 */
+    double most_sigma_share; /* a 1-sigma that is a larger share of the road's bend is uncertain; 0.3 */
+    int32_t missing; /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED. Bridged: a
+                        missing height is no reading, a missing acceleration is one of 0 that is
+                        taken for as uncertain as `missing_acceleration`; such points are flagged. */
+    int32_t back;    /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
+} fr_road_prior_config;
+
+typedef struct fr_road_prior fr_road_prior;
+
+FR_API fr_road_prior_config fr_road_prior_defaults(void);
+FR_API size_t fr_road_prior_size(const fr_road_prior_config *config);
+FR_API fr_status fr_road_prior_init(void *memory, size_t size, const fr_road_prior_config *config,
+                                    fr_road_prior **out);
+/* Acceleration in m/s^2 and height in m, both within a million, of `count` samples. Of each point
+ * that comes out: elevation in m before any high-pass, 1-sigma of it in m behind HPF_B3x2, and
+ * flags. FR_BAD_SAMPLE too where the encoder leaps by more than half a lag at `fastest_mps`. */
+FR_API fr_status fr_road_prior_push(fr_road_prior *road, const fr_real *acceleration,
+                                    const fr_real *height, const int64_t *counts, size_t count,
+                                    fr_real *elevation, fr_real *sigma, uint8_t *flags,
+                                    size_t capacity, size_t *written);
+/* The same behind a stage that levels the acceleration: the share of each sample, 0 to 1, that is
+ * levelled, and the share that is missing; either may be NULL, for 0. */
+FR_API fr_status fr_road_prior_push_levelled(fr_road_prior *road, const fr_real *acceleration,
+                                             const fr_real *height, const int64_t *counts,
+                                             const fr_real *levelled, const fr_real *missing,
+                                             size_t count, fr_real *elevation, fr_real *sigma,
+                                             uint8_t *flags, size_t capacity, size_t *written);
+/* End the run: all points that are left, smoothed with what there is behind them. */
+FR_API fr_status fr_road_prior_finish(fr_road_prior *road, fr_real *elevation, fr_real *sigma,
+                                      uint8_t *flags, size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
  * The International Roughness Index, running over distance (2.1.1). The car starts at the mean
  * slope of the start length, so the first output comes behind that length; the others come one
  * moving average behind their point. Memory: 8 bytes or less per point of the longer of both.
@@ -506,6 +586,131 @@ FR_API fr_status fr_screening_push(fr_screening *screening, const fr_real *x, co
 /* End the run, and with it what is open: two spans at most. */
 FR_API fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, size_t capacity,
                                      size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * The extended Kalman filter of chapter 6 for one wheel path: inertial unit, height sensor, encoder
+ * and GNSS in place of both integrations. Inputs, states and heights are double in the build for
+ * float too: with states in float, a smoother without GNSS is off by 0.6 to 110 mm.
+ *
+ * Inputs: specific force forward, to the side and up in m/s^2, rates about the same axes in rad/s,
+ * the height in m. With `missing` FR_MISSING_BRIDGED a missing sample of the inertial unit is taken
+ * as zero, and the noise of a missing acceleration holds up to the end of its sub-block of 10 ms;
+ * a missing height is one that is not observed.
+ *
+ * Readings of GNSS name the sample next to them in time, and may come in any order: before that
+ * sample, or up to `late_s` behind it, which the output waits for. Without readings for half a
+ * second constants take their place.
+ */
+typedef struct fr_kalman_noise {
+    double acceleration;         /* vertical acceleration, in m/s^2/sqrt(Hz); 4.65e-5 */
+    double acceleration_walk;    /* of its bias, in m/s^2/sqrt(s); 1e-4 */
+    double roll_rate;            /* in rad/s/sqrt(Hz); 1.34e-5, as the two below */
+    double pitch_rate;
+    double yaw_rate;
+    double roll_rate_walk;       /* of its bias, in rad/s/sqrt(s); 9.27e-6 */
+    double pitch_rate_walk;      /* 4.86e-4 */
+    double missing_acceleration; /* in place of `acceleration` where that is missing; 0.3 */
+    double lean_rad;             /* 1-sigma of the lean of the accelerometer's axis; 0.01 */
+    double gnss_height_m;        /* 1-sigma of a reading at 20 Hz or less; 0.012 */
+    double gnss_velocity_mps;    /* 0.03 */
+    double gnss_pitch_rad;       /* 2.09e-3 */
+    double gnss_roll_rad;        /* 3.49e-3 */
+    double gnss_height_walk;     /* slow error of the GNSS height, in m/sqrt(s); 1.5e-3 */
+    double constant_height;      /* what stays the same without a reading, in m/sqrt(Hz); 0.04 */
+    double constant_velocity;    /* in m/s/sqrt(Hz); 0.08 */
+    double constant_pitch;       /* in rad/sqrt(Hz); 0.0195 */
+    double constant_roll;        /* in rad/sqrt(Hz); 0.0078 */
+    double reflection;           /* the height sensor at a stop, in m/sqrt(Hz); 2.64e-5 */
+    double height_m;             /* 1-sigma of a reading of the height sensor; 4e-5 */
+} fr_kalman_noise;
+
+typedef struct fr_kalman_filter_config {
+    fr_travel_speed_config travel; /* rate and encoder; no default but for the window */
+    fr_kalman_noise noise;
+    double gravity_mps2;           /* 9.80665 */
+    double antenna_m[3];           /* from the reference point: forward, to the side, up; 0 */
+    double reflection_speed_mps;   /* the vehicle is stationary below this speed; 0.16 / 3.6 */
+    double late_s;                 /* how late a reading may come; 0 */
+    int32_t gnss;                  /* 1: height and velocity of GNSS, 0: constants; 1 */
+    int32_t attitude;              /* 1: pitch and roll of GNSS, 0: constants; 1 */
+    int32_t reflects;              /* 1: the height sensor in place of GNSS heights at a stop; 1 */
+    int32_t readings;              /* GNSS readings that may wait at a time; 64 */
+    int32_t missing;               /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; ..._REFUSED */
+    int32_t reserved;              /* 0 */
+} fr_kalman_filter_config;
+
+/* The samples of a push; all of them have as many. */
+typedef struct fr_imu {
+    const double *longitudinal, *lateral, *vertical; /* specific force in m/s^2 */
+    const double *roll_rate, *pitch_rate, *yaw_rate; /* in rad/s */
+} fr_imu;
+
+typedef struct fr_kalman_filter fr_kalman_filter;
+
+/* Defaults of the variant with GNSS, attitude and reflection (6.6.3), and of that without GNSS
+ * (6.6.5), whose noise differs. */
+FR_API fr_kalman_filter_config fr_kalman_filter_defaults(void);
+FR_API fr_kalman_filter_config fr_kalman_filter_inertial_defaults(void);
+FR_API size_t fr_kalman_filter_size(const fr_kalman_filter_config *config);
+FR_API fr_status fr_kalman_filter_init(void *memory, size_t size,
+                                       const fr_kalman_filter_config *config,
+                                       fr_kalman_filter **out);
+/* A reading of height in m, vertical velocity in m/s, pitch and roll in rad; all but the height may
+ * be NaN. `variances` are those of the four, NaN or the whole NULL for those of the settings; those
+ * of readings that come faster than 22 Hz count for less. Give readings with fixed ambiguities
+ * alone. FR_TOO_LATE if its sample has been filtered or has a reading, FR_QUEUE_FULL if too many
+ * wait, FR_WRONG_ORDER if the settings are without GNSS. */
+FR_API fr_status fr_kalman_filter_push_gnss(fr_kalman_filter *filter, int64_t sample,
+                                            const double values[4], const double variances[4]);
+/* The floating reference height in m of every sample, `late_s` behind the input. */
+FR_API fr_status fr_kalman_filter_push(fr_kalman_filter *filter, const fr_imu *imu,
+                                       const double *height, const int64_t *counts, size_t count,
+                                       double *reference_height, size_t capacity, size_t *written);
+/* End the run: the samples that still wait. */
+FR_API fr_status fr_kalman_filter_finish(fr_kalman_filter *filter, double *reference_height,
+                                         size_t capacity, size_t *written);
+/* Readings left out so far, because they were ten times their expected 1-sigma off, by kind. */
+FR_API fr_status fr_kalman_filter_left_out(const fr_kalman_filter *filter, int64_t count[4]);
+
+/* ---------------------------------------------------------------------------------------------
+ * The Kalman smoother with a fixed lag (6.6.2 to 6.6.5): that filter, smoothed back. Points of the
+ * profile over distance come out in sections of half a lag, with at least the lag behind them, in
+ * bounded memory. A standstill of any length takes no more; what a lag is too short for is flagged.
+ *
+ * Memory in bytes, near enough, with hz = 101 + gnss_hz nodes per second, at 100 Hz or more:
+ * lag_s (1656 hz + 48 fastest_mps / interval_m + 468 fastest_mps + 70 hz).
+ */
+typedef struct fr_kalman_config {
+    fr_kalman_filter_config filter;
+    double interval_m;   /* between points; no default */
+    double lag_s;        /* a point has so much time behind it; 60, without GNSS 180 */
+    double fastest_mps;  /* at a higher speed the lag is shorter; 40 */
+    double gnss_hz;      /* at more readings per second the lag is shorter; 20 */
+    double wavelength_m; /* cut-off of each pass of HPF_B3x2, for the 1-sigma; 105.91 */
+    double tolerance_m;  /* 1-sigma of what may change, above which a point is flagged; 1e-4 */
+} fr_kalman_config;
+
+typedef struct fr_kalman fr_kalman;
+
+FR_API fr_kalman_config fr_kalman_defaults(void);
+FR_API fr_kalman_config fr_kalman_inertial_defaults(void);
+FR_API size_t fr_kalman_size(const fr_kalman_config *config);
+FR_API fr_status fr_kalman_init(void *memory, size_t size, const fr_kalman_config *config,
+                                fr_kalman **out);
+/* As fr_kalman_filter_push_gnss(). */
+FR_API fr_status fr_kalman_push_gnss(fr_kalman *kalman, int64_t sample, const double values[4],
+                                     const double variances[4]);
+/* Elevation in m of the points that are ready, before any high-pass filter, its 1-sigma in m behind
+ * HPF_B3x2, and flags FR_POINT_... of each. FR_OUTPUT_FULL says how many points are ready. A point
+ * whose height is missing is NaN. */
+FR_API fr_status fr_kalman_push(fr_kalman *kalman, const fr_imu *imu, const double *height,
+                                const int64_t *counts, size_t count, fr_real *elevation,
+                                fr_real *sigma, uint8_t *flags, size_t capacity, size_t *written);
+/* End the run: all points that are left. */
+FR_API fr_status fr_kalman_finish(fr_kalman *kalman, fr_real *elevation, fr_real *sigma,
+                                  uint8_t *flags, size_t capacity, size_t *written);
+/* As fr_kalman_filter_left_out(). */
+FR_API fr_status fr_kalman_left_out(const fr_kalman *kalman, int64_t count[4]);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,7 @@
 """`floatref compare`: the agreement of a profile with a reference, wheel path by wheel path."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +20,11 @@ from floatref.cli.printing import (
 from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
-from floatref.measures import WAVEBANDS, IriSettings, agreement, iri, on_common_grid
+from floatref.measures import WAVEBANDS, Agreement, IriSettings, iri, on_common_grid
 from floatref.measures.locating.shift import Shift, find_shift, move
-from floatref.measures.valid_iri import iri_of_common_points
+from floatref.measures.roughness.wavebands import path_agreement
+from floatref.measures.valid_iri import CommonIri, iri_of_common_points
+from floatref.values.arrays import release
 from floatref.values.profile import Profile
 
 OF_VALID = ("iri_of_valid_m_per_km", "iri_reference_of_valid_m_per_km")
@@ -62,7 +65,7 @@ def compare(
     with name_errors(f"{reference} and {profile}"):
         _check_tracks(expected, found)
         shift = None if no_placement else find_shift(expected, found)
-        expected, found = on_common_grid(expected, move(found, shift) if shift else found)
+        found = move(found, shift) if shift else found
         report = compare_report(expected, found, max_offset_m, shift)
     if plot is not None:
         from floatref.plots import draw_comparison
@@ -77,21 +80,23 @@ def compare(
 def compare_report(
     reference: Profile, profile: Profile, max_offset_m: float, shift: Shift | None = None
 ) -> dict[str, Any]:
-    """Return the JSON document of `floatref compare --json` for two profiles on the same points.
+    """Return the JSON document of `floatref compare --json`, on the points of ``reference``.
 
-    ``shift`` is by how much ``profile`` was moved; None if it is compared as it lies.
+    ``shift`` is by how much ``profile`` was moved; None if it is compared as it lies. Raises
+    InputError where the two do not overlap, and as the measures do.
     """
     placement_m = shift.placement_m if shift and shift.is_sure else None
-    interval = reference.interval_m
-    settings = IriSettings().as_dict(interval) | {
+    # One after the other: all wheel paths on one grid would be in memory together.
+    tracks = []
+    for track in reference.tracks:
+        common = _common_points(reference, profile, track.name)
+        tracks.append(_track_report(reference, profile, common, max_offset_m))
+    settings = IriSettings().as_dict(reference.interval_m) | {
         "max_offset_m": max_offset_m,
-        "start_m": reference.start_m,
-        "length_m": reference.length_m,
+        "start_m": common.start_m,
+        "length_m": common.length_m,
         "grid": "points of REFERENCE, PROFILE linear between its own",
     }
-    tracks = [
-        _track_report(reference, profile, track.name, max_offset_m) for track in reference.tracks
-    ]
     names = {track.name for track in reference.tracks}
     extra = [track.name for track in profile.tracks if track.name not in names]
     return {
@@ -114,33 +119,61 @@ def _check_tracks(reference: Profile, profile: Profile) -> None:
         )
 
 
-def _track_report(
-    reference: Profile, profile: Profile, name: str, max_offset_m: float
-) -> dict[str, Any]:
-    """Return agreement and IRI of the wheel path ``name``."""
-    interval = reference.interval_m
-    p, q = reference.track(name).elevation, profile.track(name).elevation
-    valid = iri_of_common_points(reference.track(name), profile.track(name), interval)
+@dataclass(frozen=True)
+class _Common:
+    """What both profiles have of a wheel path, on the reference's points, and its IRIs in m/km."""
+
+    name: str
+    start_m: float
+    length_m: float
+    profile_m_per_km: float
+    reference_m_per_km: float
+    valid: CommonIri
+
+
+def _common_points(reference: Profile, profile: Profile, name: str) -> _Common:
+    """Return what both have of the wheel path ``name``; InputError where they do not overlap."""
+    one, other = (replace(each, tracks=(each.track(name),)) for each in (reference, profile))
+    expected, found = on_common_grid(one, other)
+    p, q, interval = expected[name], found[name], expected.interval_m
     with name_errors(f"track {name}"):
-        found = agreement(p, q, interval, "iri", max_offset_m)
+        valid = iri_of_common_points(p, q, interval)
+        found_m_per_km = iri(q.elevation, interval)
+        release(q.elevation)
+        expected_m_per_km = iri(p.elevation, interval)
+        release(p.elevation)
+    both = found_m_per_km, expected_m_per_km
+    return _Common(name, expected.start_m, expected.length_m, *both, valid)
+
+
+def _track_report(
+    reference: Profile, profile: Profile, common: _Common, max_offset_m: float
+) -> dict[str, Any]:
+    """Return agreement and IRI of a wheel path that both have in ``common``."""
+
+    def agree(band: str) -> Agreement:
+        return path_agreement(reference, profile, common.name, band, max_offset_m)
+
+    with name_errors(f"track {common.name}"):
+        found = agree("iri")
         bands = {
-            band: agreement(p, q, interval, band, max_offset_m).cross_correlation
+            band: agree(band).cross_correlation
             for band, limits in WAVEBANDS.items()
-            if limits.long_m > 2 * interval
+            if limits.long_m > 2 * reference.interval_m
         }
-        return {
-            "name": name,
-            "cross_correlation": found.cross_correlation,
-            "offset_m": found.offset_m,
-            "iri_m_per_km": iri(q, interval),
-            "iri_reference_m_per_km": iri(p, interval),
-            "correlation": found.correlation,
-            "amplitude_factor": found.amplitude_factor,
-            "wavebands": bands,
-            "iri_of_valid_m_per_km": valid.profile_m_per_km,
-            "iri_reference_of_valid_m_per_km": valid.reference_m_per_km,
-            "counted_share": valid.counted_share,
-        }
+    return {
+        "name": common.name,
+        "cross_correlation": found.cross_correlation,
+        "offset_m": found.offset_m,
+        "iri_m_per_km": common.profile_m_per_km,
+        "iri_reference_m_per_km": common.reference_m_per_km,
+        "correlation": found.correlation,
+        "amplitude_factor": found.amplitude_factor,
+        "wavebands": bands,
+        "iri_of_valid_m_per_km": common.valid.profile_m_per_km,
+        "iri_reference_of_valid_m_per_km": common.valid.reference_m_per_km,
+        "counted_share": common.valid.counted_share,
+    }
 
 
 def _print_tables(report: dict[str, Any]) -> None:

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 @click.command("convert")
 @click.argument("source", type=click.Path(path_type=Path))
-@click.option("--out", required=True, type=click.Path(path_type=Path), help="Where to write.")
+@click.option("-o", "--out", required=True, type=click.Path(path_type=Path), help="Where to write.")
 @click.option(
     "--format",
     "form",

@@ -11,7 +11,7 @@ import click
 
 from floatref.cli.iri_tables import UNITS, print_iri_tables
 from floatref.cli.printing import print_json
-from floatref.cli.segment_places import layer_of, layer_options, write_profile_layer
+from floatref.cli.recordings.segment_places import layer_of, layer_options, write_profile_layer
 from floatref.engine.formats import profile_of
 from floatref.files.sources import name_errors
 from floatref.measures import IriSettings, in_per_mi, mean_roughness_index

@@ -1,23 +1,20 @@
 """A click group whose sub-commands are imported when they are called, and their errors."""
 
 import os
-import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from io import TextIOWrapper
-from threading import current_thread, main_thread
 from traceback import walk_tb
-from typing import Any, NoReturn
+from typing import Any
 
 import click
 
 from floatref.cli.choices import hint_at_choices, hint_behind
+from floatref.cli.program.interrupts import INTERRUPTED, raising_interrupt
 from floatref.errors import FloatrefError, TargetExists
 
-INTERRUPTED = 130
-"""Exit code of every command that was interrupted, as shells have it: 128 and SIGINT."""
 OVERWRITE = "--overwrite"
 STREAMS = ("stdin", "stdout", "stderr")
 """Names in `sys`, in the order of the file descriptors 0, 1 and 2."""
@@ -46,33 +43,6 @@ def replace_unknown_letters() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
-
-
-class Interrupt(KeyboardInterrupt):
-    """Ctrl-C in a command.
-
-    `python -m` dies of the signal in the end, whatever its exit code, if an exception of the very
-    type KeyboardInterrupt has left a text that was run, as that of a named tuple.
-    """
-
-
-def raise_interrupt(*_: object) -> NoReturn:
-    """Raise Interrupt, for a signal."""
-    raise Interrupt
-
-
-@contextmanager
-def raising_interrupt() -> Iterator[None]:
-    """Let Ctrl-C raise Interrupt where it would raise KeyboardInterrupt."""
-    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if current_thread() is not main_thread() or not usual:
-        yield
-        return
-    signal.signal(signal.SIGINT, raise_interrupt)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 class UnusableInput(click.ClickException):

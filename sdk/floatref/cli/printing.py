@@ -4,6 +4,7 @@ import json
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import islice
 from math import floor
 from typing import Any, Literal
 
@@ -17,6 +18,8 @@ from floatref.files.document import plain
 
 PIPED_WIDTH = 240
 """Width of a table outside a terminal, in characters."""
+PIECES = 1 << 14
+"""Pieces of JSON that are printed together."""
 PERCENT_OF_VALID = "valid %"
 """Heading of a column of `percent`."""
 MARK = "*"
@@ -25,7 +28,11 @@ MARK = "*"
 
 def print_json(report: Mapping[str, Any]) -> None:
     """Print ``report`` as one JSON object, NaN as null."""
-    click.echo(json.dumps(plain(report, "report"), indent=2, allow_nan=False))
+    # A report of very many areas is not in memory as text, too.
+    pieces = json.JSONEncoder(indent=2, allow_nan=False).iterencode(plain(report, "report"))
+    while text := "".join(islice(pieces, PIECES)):
+        click.echo(text, nl=False)
+    click.echo()
 
 
 def print_settings(settings: Mapping[str, Any]) -> None:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @click.command("process")
 @click.argument("source", type=click.Path(path_type=Path))
-@click.option("--out", required=True, type=click.Path(path_type=Path), help="Where to write.")
+@click.option("-o", "--out", required=True, type=click.Path(path_type=Path), help="Where to write.")
 @click.option("--adapter", metavar="NAME", help="Read SOURCE with this adapter.")
 @click.option(
     "--map",

@@ -22,6 +22,7 @@ NAMES = frozenset(name for pair in PAIRS for name in pair)
 @click.command("vehicle")
 @click.argument("profiles", metavar="[PROFILE...]", nargs=-1, type=click.Path(path_type=Path))
 @click.option(
+    "-o",
     "--out",
     required=True,
     type=click.Path(path_type=Path),

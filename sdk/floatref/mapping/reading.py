@@ -75,7 +75,7 @@ def read_native(
         opened = Opened(source, adapter, chart, stack)
         if chart is None:
             with name_errors(source):
-                chart = map_of_ours(opened.file(SOURCE))
+                chart = map_of_ours(opened.file(SOURCE), source)
         return _Mapping(opened, chart, stack.enter_context(Spool()), progress).reading()
 
 

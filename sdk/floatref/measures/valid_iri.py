@@ -15,7 +15,7 @@ from floatref.errors import InputError
 from floatref.measures.roughness.gaps import measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.roughness_index import STANDARD, iri, rectified_sums
-from floatref.values.arrays import BoolArray, FloatArray, IndexArray
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.display.iri_table import ProfileIri, TrackIri
 from floatref.values.profile import Profile, ProfileTrack
 
@@ -86,9 +86,11 @@ def iri_of_common_points(
     NaN where no stretch is long enough. Raises InputError as `profile_iri`.
     """
     both = reference.valid & profile.valid
-    (expected, share), (found, _) = (
-        _named(replace(track, valid=both), interval_m, STANDARD) for track in (reference, profile)
-    )
+    expected, share = _named(replace(reference, valid=both), interval_m, STANDARD)
+    # What was read of its file would stay in memory beside the other.
+    release(reference.elevation)
+    found, _ = _named(replace(profile, valid=both), interval_m, STANDARD)
+    release(profile.elevation)
     return CommonIri(expected, found, share)
 
 

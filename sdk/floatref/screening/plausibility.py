@@ -63,15 +63,15 @@ TRUNCATION_S = 0.5
 LOWEST_ACCELEROMETER_HZ = 20.0
 
 MISREADINGS = (
-    (1.0, 0.2, "looks like g, multiply by 9.80665"),
-    (0.0, 0.5, "1 g has been removed, add 9.80665 m/s^2"),
-    (-1.0, 0.2, "looks like g with the sign inverted, multiply by -9.80665"),
-    (-STANDARD_GRAVITY, GRAVITY_TOLERANCE, "the sign is inverted, multiply by -1"),
-    (32.174, 3.0, "looks like ft/s^2, multiply by 0.3048"),
-    (980.665, 100.0, "looks like cm/s^2 or mg, multiply by 0.01 or 0.00980665"),
-    (9806.65, 1000.0, "looks like mm/s^2, multiply by 0.001"),
+    (1.0, 0.2, "looks like g, multiply by 9.80665 (map: unit = 'g')"),
+    (0.0, 0.5, "1 g has been removed, add 9.80665 m/s^2 (map: offset = 9.80665, or 1 in g)"),
+    (-1.0, 0.2, "looks like g with the sign inverted, multiply by -9.80665 (map: unit, sign)"),
+    (-STANDARD_GRAVITY, GRAVITY_TOLERANCE, "the sign is inverted, multiply by -1 (map: sign = -1)"),
+    (32.174, 3.0, "looks like ft/s^2, multiply by 0.3048 (map: unit = 'ft/s^2')"),
+    (980.665, 100.0, "looks like cm/s^2 or mg, multiply by 0.01 or 0.00980665 (map: unit)"),
+    (9806.65, 1000.0, "looks like mm/s^2, multiply by 0.001 (map: unit = 'mm/s^2')"),
 )
-"""Mean of a vertical accelerometer, its tolerance, and the meaning."""
+"""Mean of a vertical accelerometer, its tolerance, the meaning, and the key of a channel map."""
 
 SECOND_DISTANCES = ("wheel_distance", "optical_distance")
 """Distances beside the encoder's, which may not decrease either."""

@@ -74,11 +74,13 @@ class ProfileTrack:
             raise InputError(f"track {self.name}: elevation, valid and sigma differ in length")
         if (self.valid & np.isnan(self.elevation)).any():
             raise InputError(f"track {self.name}: a point without elevation is marked valid")
-        if self.sigma is not None and (self.sigma < 0).any():
-            raise InputError(f"track {self.name}: sigma is below zero; give a standard deviation")
         # Looking at every point has read a mapped file into memory.
         release(self.elevation)
         if self.sigma is not None:
+            if (self.sigma < 0).any():
+                raise InputError(
+                    f"track {self.name}: sigma is below zero; give a standard deviation"
+                )
             release(self.sigma)
 
     def __repr__(self) -> str:

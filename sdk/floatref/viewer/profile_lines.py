@@ -7,6 +7,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures import IriSettings
+from floatref.measures.locating.shift import Shift
 from floatref.measures.valid_roughness import roughness_of
 from floatref.measures.valid_segments import SegmentIri, segment_iris
 from floatref.values.arrays import FloatArray
@@ -19,12 +20,21 @@ ALONG, SPEED = "along_m", "speed_mps"
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A profile under its name on the page, and the points of it that are shown."""
+    """A profile under its name on the page, and the points of it that are shown.
+
+    ``profile`` is on the axis of the page's first run, and ``place`` says where it lay before.
+    """
 
     number: int
     name: str
     profile: Profile
     part: slice
+    place: Shift
+
+    @property
+    def moved_m(self) -> float:
+        """By how much it was moved back, in m; 0 where its place is not sure."""
+        return self.place.placement_m if self.place.is_sure else 0.0
 
     @property
     def span_m(self) -> tuple[float, float]:
@@ -121,4 +131,7 @@ def recorded_speed(profile: Profile) -> tuple[FloatArray, FloatArray] | None:
 def speed_line(run: Run) -> Line | None:
     """Return the speed in m/s over the distance from the record of a profile, if it has one."""
     found = recorded_speed(run.profile)
-    return found and Line(found[1], run.name, "distance", at=found[0], run=run.number)
+    if found is None:
+        return None
+    along, speed = found
+    return Line(speed, run.name, "distance", at=along - run.moved_m, run=run.number)

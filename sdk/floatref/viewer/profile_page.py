@@ -4,8 +4,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
+from floatref.measures.locating.shift import Shift, move
 from floatref.values.arrays import release
 from floatref.values.parts.windows import first_time, points_of
 from floatref.values.profile import Profile, ProfileTrack
@@ -13,7 +16,7 @@ from floatref.values.recording import Recording
 from floatref.viewer.drawn_lines import bins_within, finest, write_line
 from floatref.viewer.events import Event, events_of_recording, invalid_stretches, slow_stretches
 from floatref.viewer.journey import Journey, write_track
-from floatref.viewer.lags import lag_of
+from floatref.viewer.lags import find_place, lag_of
 from floatref.viewer.page_file import PageOptions, new_page
 from floatref.viewer.page_writer import PageWriter
 from floatref.viewer.profile_lines import (
@@ -36,11 +39,12 @@ def write_profile_page(
 ) -> dict[str, Any]:
     """Write the page of ``profiles``, by name, to ``path`` and return its document.
 
-    The first is the reference; the page has the lag in m of each other one behind it.
+    The first is the reference. Each other one is moved to its place on that one's axis where it
+    lies more than 1 m away; the page has by how much, and the lag in m that remains.
     ``recording``, of the first one, adds the time axis, speed, events and the map. Raises
     InputError, naming the profile, for a window outside it, and if ``path`` cannot be written.
     """
-    runs = [_run(number, name, profiles[name], options) for number, name in enumerate(profiles)]
+    runs = _place_runs(profiles, options)
     title = options.title or ", ".join(profiles)
     with new_page(path, title, options.overwrite) as page:
         document = options.head(title, "distance") | _document(page, runs, options, recording)
@@ -48,9 +52,16 @@ def write_profile_page(
     return document
 
 
-def _run(number: int, name: str, profile: Profile, options: PageOptions) -> Run:
-    with name_errors(name):
-        return Run(number, name, profile, points_of(profile, options.window))
+def _place_runs(profiles: Mapping[str, Profile], options: PageOptions) -> list[Run]:
+    """Return ``profiles`` as runs on the axis of the first one."""
+    runs: list[Run] = []
+    for name, profile in profiles.items():
+        with name_errors(name):
+            place = find_place(runs[0].profile, profile) if runs else Shift(0.0)
+            moved = move(profile, place)
+            part = points_of(moved, options.window)
+        runs.append(Run(len(runs), name, moved, part, place))
+    return runs
 
 
 def _document(
@@ -62,7 +73,7 @@ def _document(
     journey = None if recording is None else _journey(recording)
     events = _events(runs, recording, journey)
     document: dict[str, Any] = {
-        "runs": [{"name": run.name, "lag": _lag(runs[0], run)} for run in runs],
+        "runs": [_placed(runs[0], run) for run in runs],
         "span": {"distance": _span(runs)},
         "finest": {"samples": finest(panels[0]["lines"]), "of": "points"},
         "events": [event._asdict() for event in events],
@@ -152,5 +163,9 @@ def _span(runs: Sequence[Run]) -> tuple[float, float]:
     return min(begins), max(ends)
 
 
-def _lag(reference: Run, run: Run) -> float:
-    return 0.0 if run is reference else lag_of(reference.profile, run.profile)
+def _placed(reference: Run, run: Run) -> dict[str, Any]:
+    """Return name, move, lag and doubt of ``run``; the lag is NaN where its place is not sure."""
+    lag = 0.0 if run is reference else np.nan
+    if run is not reference and run.place.is_sure:
+        lag = lag_of(reference.profile, run.profile)
+    return {"name": run.name, "moved": -run.moved_m, "lag": lag, "note": run.place.note}

@@ -10,13 +10,14 @@ from floatref.values.recording import Recording
 from floatref.values.scanning import Summary
 from floatref.viewer.events import Event
 
+# A phone shows the first columns alone: those that the table is looked at for.
 IRI_HEADER = (
     ("profile", ""),
     ("wheel path", ""),
-    ("from", "distance"),
-    ("length", "distance"),
     ("IRI of valid points", "roughness"),
     ("share that counts", ""),
+    ("from", "distance"),
+    ("length", "distance"),
     ("95 % from", "roughness"),
     ("to", "roughness"),
     ("all points", "roughness"),
@@ -51,10 +52,10 @@ def iri_row(run: str, path: str, found: SegmentIri, whole: bool = False) -> dict
         "cells": [
             run,
             path,
-            found.start_m,
-            found.length_m,
             found.valid_m_per_km,
             share,
+            found.start_m,
+            found.length_m,
             low,
             high,
             found.all_m_per_km,

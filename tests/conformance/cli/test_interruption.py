@@ -90,7 +90,7 @@ def test_a_real_command_ends_with_all_its_processes(name, recordings, tmp_path):
     last = errors.splitlines()[-1]
     assert last.startswith("Interrupted")
     assert line in last
-    assert {path.name for path in tmp_path.iterdir()} <= {"run", "runs", "truth", "report"}
+    assert {path.name for path in tmp_path.iterdir()} == {"run", "runs", "truth"}
     assert list(scratch.iterdir()) == []
 
 

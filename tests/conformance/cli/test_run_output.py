@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from floatref_conformance.judge import trial
 from floatref_conformance.render.report import JsonOutput
 
 
@@ -24,6 +25,22 @@ def test_json_is_the_document_of_the_report_and_all_else_is_on_stderr(
 def test_json_needs_no_folder(run_toy):
     document = json.loads(run_toy("good", "--json").stdout)
     assert (document["format"], document["verdict"]) == ("conformance-report/1", "INCOMPLETE")
+
+
+@pytest.mark.parametrize(("kept", "left"), [((), set()), (("a",), {"a"}), (("a", "b"), {"a", "b"})])
+def test_an_interruption_leaves_the_folders_that_were_there(
+    run_toy, monkeypatch, tmp_path, kept, left
+):
+    """The folder of the report and that of its cases are made before the run: to try whether."""
+
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(trial, "check_result", interrupted)
+    tmp_path.joinpath(*kept).mkdir(parents=True, exist_ok=True)
+    answer = run_toy("good", "--report", tmp_path / "a" / "b" / "c")
+    assert answer.exit_code == 130
+    assert {path.name for path in tmp_path.rglob("*")} == left
 
 
 @pytest.mark.parametrize("words", [["--device", "fake:nobody"], ["--check", "jumping"]])

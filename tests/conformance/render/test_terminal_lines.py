@@ -4,6 +4,8 @@ from io import StringIO
 from math import nan
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from rich.console import Console
 
 from floatref_conformance.checks.verdict import Outcome
@@ -18,7 +20,7 @@ from floatref_conformance.judge.events import (
     SearchStarted,
     ShrinkStarted,
 )
-from floatref_conformance.render.terminal import TerminalRenderer
+from floatref_conformance.render.terminal import TerminalRenderer, result_lines
 
 
 def shown(*events, terminal=False, verbose=False):
@@ -98,6 +100,19 @@ def test_what_was_not_run_differs_from_what_a_device_skipped(check, result):
     assert "Not run (not selected): later\n" in text
     assert "Skipped by the device (too long): gap\n" in text
     assert "INCOMPLETE: 1 of 1 checks that ran passed; 2 were not run" in text
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(width=st.integers(30, 200), count=st.integers(1, 30))
+def test_what_was_not_run_is_wrapped_at_words(check, result, width, count):
+    """No line is wider than the console, and no name of a check is split or lost."""
+    ids = [f"low-speed-{k}" for k in range(count)]
+    skipped = [check(Outcome.SKIP, name, reason="not selected") for name in ids]
+    lines = result_lines(result(*skipped, check(Outcome.PASS)), width=width)
+    (wrapped,) = (line for line in lines if line.startswith("Not run"))
+    assert max(map(len, wrapped.splitlines())) <= width
+    assert " ".join(wrapped.split()) == f"Not run (not selected): {', '.join(ids)}"
+    assert all(line.startswith("  low-speed-") for line in wrapped.splitlines()[1:])
 
 
 def test_a_pipe_gets_one_plain_line_for_every_step(check, hostile):

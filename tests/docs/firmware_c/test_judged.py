@@ -1,5 +1,6 @@
 """The judge passes the firmware in C, and fails the faults that are built into it."""
 
+import json
 import re
 import subprocess
 import sysconfig
@@ -9,27 +10,49 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
-README = Path(__file__).parents[3] / "docs" / "examples" / "firmware_c" / "README.md"
+DOCS = Path(__file__).parents[3] / "docs"
+README, PAGE = DOCS / "examples" / "firmware_c" / "README.md", DOCS / "firmware.md"
+WORDS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+WORDS += ("eleven", "twelve", "thirteen", "fourteen", "fifteen")
 CONFORMANCE = Path(sysconfig.get_path("scripts")) / "conformance"
 
 
-def judged(program, *checks):
-    """Return exit code and output of a quick run of ``checks``."""
-    options = [word for check in checks for word in ("--check", check)]
-    found = subprocess.run(
+def run(program, *options):
+    """Return a finished quick run of the judge."""
+    return subprocess.run(
         [str(CONFORMANCE), "run", "--device", "exec:./firmware", *options],
         cwd=program.parent,
         capture_output=True,
         text=True,
         encoding="utf-8",
     )
+
+
+def judged(program, *checks):
+    """Return exit code and output of a quick run of ``checks``."""
+    found = run(program, *(word for check in checks for word in ("--check", check)))
     return found.returncode, found.stdout + found.stderr
 
 
-def test_the_firmware_keeps_the_limits_where_it_is_hardest(build):
-    code, said = judged(build("firmware"), "faults")
-    assert "1 of 1 checks that ran passed" in said
-    assert code == 4
+def test_the_page_counts_and_names_what_the_judge_fails(build):
+    """All checks in one run: how many pass, and the worst figure and limit of each that fails."""
+    done = run(build("firmware"), "--json")
+    checks = {check["id"]: check for check in json.loads(done.stdout)["checks"]}
+    failed = {name: check["shown"] for name, check in checks.items() if check["outcome"] != "pass"}
+    text = PAGE.read_text(encoding="utf-8")
+    page = " ".join(text.split())
+    counts = f"passes {WORDS[len(checks) - len(failed)]} of the"
+    assert f"The finished firmware {counts}" in page
+    assert f"the exit code is {done.returncode}. It fails {WORDS[len(failed)]}:" in page
+    rows = re.findall(
+        r"^\| `([a-z-]+)`.*?\| ([\d.]+) (\S+) \| ([\d.]+) \S+ \|", PAGE.read_text(), re.M
+    )
+    assert {name for name, *_ in rows} == failed.keys()
+    for name, worst, unit, limit in rows:
+        assert unit == failed[name]["unit"], name
+        assert float(worst) == pytest.approx(failed[name]["value"], rel=0.01), name
+        assert float(limit) == pytest.approx(failed[name]["limit"], rel=0.05), name
+    assert "faults" not in failed
 
 
 # The tutorial shows the failure of the second one, and its test runs that.

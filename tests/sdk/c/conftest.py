@@ -7,7 +7,7 @@ import os
 import re
 import shutil
 import subprocess
-from functools import cache
+from functools import cache, reduce
 
 import numpy as np
 import pytest
@@ -95,8 +95,8 @@ class Library:
         config = self.ffi.new(f"fr_{kind}_config *")
         config[0] = getattr(self.lib, f"fr_{kind}_defaults")()
         for name, value in settings.items():
-            inner, _, field = name.rpartition("__")
-            setattr(getattr(config, inner) if inner else config, field, value)
+            *inner, field = name.split("__")
+            setattr(reduce(getattr, inner, config), field, value)
         return config
 
     def memory(self, kind, config):

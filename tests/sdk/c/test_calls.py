@@ -25,6 +25,9 @@ REQUIRED = {
     "matched_high_pass": {"rate_hz": 250.0},
     "iri": {"interval_m": 0.25},
     "screening": ENCODER,
+    "road_prior": {**ENCODER, "interval_m": 0.125},
+    "kalman_filter": INSIDE,
+    "kalman": {**{f"filter__{name}": value for name, value in INSIDE.items()}, "interval_m": 0.125},
 }
 """The settings that have no default."""
 CALLS = {

@@ -1,5 +1,7 @@
 """Filters and integration in C: the numbers of the SDK's kernels, bit for bit in double."""
 
+from math import pi, tan
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -46,7 +48,7 @@ def test_a_fixed_section_has_the_bits_of_the_kernel(
     expected = np.empty(x.size)
     kernel = getattr(plain("kernels.state_variable"), KERNELS[order, passes])
     memory = new_record(memories.STATE_VARIABLE)
-    kernel(x, expected, memory, np.tan(np.pi * cutoff), direction == 2)
+    kernel(x, expected, memory, tan(pi * cutoff), direction == 2)
     assert status == 0
     same_bits(found, expected)
 
@@ -130,5 +132,28 @@ def test_the_short_tangent_is_within_its_stated_error(double):
         ]
     )
     c = (1.0 - found) / (1.0 + found)
-    assert np.abs(c / np.tan(np.pi * cutoff) - 1.0).max() < 6e-8
-    assert np.abs(c / np.tan(np.pi * cutoff) - 1.0).max() > 4e-8
+    assert np.abs(c / np.tan(pi * cutoff) - 1.0).max() < 6e-8
+    assert np.abs(c / np.tan(pi * cutoff) - 1.0).max() > 4e-8
+
+
+EDGES = [0.0, -0.0, 5e-324, 0.49, np.nextafter(0.49, 1.0), np.nextafter(0.5, 0.0), 0.5, -1e-9]
+
+
+@laws
+@given(
+    cutoff=st.lists(st.sampled_from(EDGES), min_size=1, max_size=3)
+    | st.lists(st.sampled_from(EDGES) | st.floats(), min_size=1, max_size=9),
+    bridged=st.booleans(),
+)
+def test_a_push_is_refused_for_each_cut_off_that_is_impossible(double, cutoff, bridged):
+    made = double.make("varying", step=1.0, missing=int(bridged))
+    before = made.memory.copy()
+    status, _ = made.push(np.ones(len(cutoff)), cutoff)
+    if any(np.isinf(f) or (np.isnan(f) and not bridged) for f in cutoff):
+        expected = "FR_BAD_SAMPLE"
+    elif any(f < 0.0 or f >= 0.5 for f in cutoff):
+        expected = "FR_BAD_CUTOFF"
+    else:
+        expected = "FR_OK"
+    assert double.status[status] == expected
+    assert (made.memory == before).all() == (expected != "FR_OK")

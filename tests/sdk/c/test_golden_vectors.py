@@ -115,6 +115,44 @@ def spatial(library, s, i):
     return {"elevation": filters.push(r - h, call="reverse")[1]}
 
 
+def smoothed(library, s, i):
+    """The road prior with a lag longer than the run, so that all points come at the end."""
+    made = library.make("road_prior", metres_per_count=MICROMETRE, **s)
+    flags, written = np.empty(999, np.uint8), library.ffi.new("size_t *")
+    where, elevation, sigma = counts(i["distance"]), *np.empty((2, 999), library.dtype)
+    inputs = [library.array(x) for x in (i["acceleration"], i["height"], where)]
+    outputs = library.at(elevation), library.at(sigma), library.ffi.from_buffer("uint8_t[]", flags)
+    assert made.call("push", *map(library.at, inputs), where.size, *outputs, 999, written) == 0
+    assert made.call("finish", *outputs, 999, written) == 0
+    return {"elevation": elevation[: written[0]]}
+
+
+def smoothed_by_kalman(library, s, i):
+    """As above; states and inputs are double in both builds."""
+    names = "gnss_height", "gnss_velocity", "gnss_pitch", "gnss_roll"
+    travel = {"rate_hz": s.pop("rate_hz"), "metres_per_count": MICROMETRE}
+    inside = {f"filter__travel__{name}": x for name, x in travel.items()}
+    inside["filter__antenna_m"] = [s.pop(f"arm_{axis}") for axis in "xyz"]
+    interval_m, more = s.pop("interval_m"), {"filter__readings": 999, "filter__reflects": 0}
+    noise = {f"filter__noise__{name}": x for name, x in s.items()}
+    noise |= {"filter__noise__lean_rad": 0.0, "filter__noise__gnss_height_walk": 0.0}
+    made = library.make("kalman", interval_m=interval_m, **inside, **noise, **more)
+    for at, *y in zip(i["gnss_at"], *(i[name] for name in names), strict=True):
+        values = library.ffi.new("double[4]", y)
+        assert made.call("push_gnss", int(at), values, library.ffi.NULL) == 0
+    doubles = {name: np.ascontiguousarray(x, float) for name, x in i.items()}
+    at = {name: library.ffi.cast("double *", x.ctypes.data) for name, x in doubles.items()}
+    axes = "longitudinal", "lateral", "vertical", "roll_rate", "pitch_rate", "yaw_rate"
+    imu = library.ffi.new("fr_imu *", [at[name] for name in axes])
+    flags, written = np.empty(999, np.uint8), library.ffi.new("size_t *")
+    where, elevation, sigma = counts(i["distance"]), *np.empty((2, 999), library.dtype)
+    outputs = library.at(elevation), library.at(sigma), library.ffi.from_buffer("uint8_t[]", flags)
+    inputs = imu, at["height"], library.at(where), where.size
+    assert made.call("push", *inputs, *outputs, 999, written) == 0
+    assert made.call("finish", *outputs, 999, written) == 0
+    return {"elevation": elevation[: written[0]]}
+
+
 def roughness(library, s, i):
     made = library.make("iri", **s)
     _, trace = made.push(i["elevation"])
@@ -136,6 +174,8 @@ STAGES = {
     "spatial-integration": over_points,
     "reflection": reflected,
     "matched-high-pass": observed,
+    "road-prior-smoother": smoothed,
+    "kalman-smoother": smoothed_by_kalman,
     "adaptive-hpf-spatial-backward": temporal,
     "timer-distortion-reflection": spatial,
     "iri": roughness,

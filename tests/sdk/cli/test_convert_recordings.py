@@ -4,6 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pyarrow as arrow
+import pyarrow.parquet as parquet
 import pytest
 from asammdf import MDF, Signal
 
@@ -18,7 +20,10 @@ from floatref.files import (
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
+from floatref_adapters.formats.arrow.parquet_profile import ParquetProfile
+from floatref_adapters.formats.erd.erd_profile import Erd
 from floatref_adapters.formats.mdf4.mdf_writing import Mf4Recording
+from floatref_adapters.formats.viewer_text.text_profile import ViewerText
 
 
 def drive() -> Recording:
@@ -44,6 +49,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     track = ProfileTrack.of("left", [0.0, 0.1, 0.2])
     write_profile(Profile(0.05, (track,)), place / "road")
     write_profile_csv(Profile(0.05, (track,)), place / "road.csv")
+    ParquetProfile().write(Profile(0.05, (track,)), place / "road.parquet")
+    ViewerText().write(Profile(0.05, (track,)), place / "road.txt")
+    Erd().write(Profile(0.05, (track,)), place / "road.erd")
     Mf4Recording().write(drive(), place / "ours.mf4")
     with MDF() as theirs:
         theirs.append(Signal(np.zeros(9), np.arange(9.0), "V", "AI7"))
@@ -112,7 +120,9 @@ def test_a_setup_that_the_file_does_not_hold_is_said_in_one_line(folder, tmp_pat
     assert not any(errors.values())
 
 
-@pytest.mark.parametrize("name", ["road", "road.csv", "road/profile.json"])
+@pytest.mark.parametrize(
+    "name", ["road", "road.csv", "road/profile.json", "road.parquet", "road.txt", "road.erd"]
+)
 def test_a_profile_where_a_recording_is_read_is_called_one(folder: Path, name: str, refused):
     path, out = folder / name, folder / "o"
     commands = (
@@ -125,6 +135,25 @@ def test_a_profile_where_a_recording_is_read_is_called_one(folder: Path, name: s
         assert f"{path}: is a profile, no recording; give the recording" in refused(*command)
     with pytest.raises(InputError, match="is a profile, no recording"):
         process(path)
+
+
+def test_a_recording_in_parquet_is_looked_at_and_converted_as_one(folder, tmp_path, ran, refused):
+    """Both are Parquet: the footer says which it is."""
+    path, rows = tmp_path / "run.parquet", 500
+    table = {"time_s": np.arange(rows) / 100.0, "height": np.full(rows, 0.3)}
+    parquet.write_table(arrow.table(table), path)
+    assert "is a recording for adapter parquet, no profile" in refused("iri", path)
+    ran("plot", path, "--out", tmp_path / "run.png")
+    ran("convert", path, "--out", tmp_path / "again")
+    found = read_recording(tmp_path / "again").channel("height")
+    np.testing.assert_array_equal(found.values, table["height"])
+
+
+def test_a_parquet_file_with_columns_of_a_profile_is_told_what_it_lacks(tmp_path, refused):
+    path = tmp_path / "theirs.parquet"
+    parquet.write_table(arrow.table({"distance_m": [0.0], "left_elevation_m": [0.1]}), path)
+    assert "is a profile, no recording" in refused("process", path, "--out", tmp_path / "o")
+    assert "metadata format is missing" in refused("iri", path)
 
 
 def test_any_other_json_file_is_called_no_profile(tmp_path: Path, refused):

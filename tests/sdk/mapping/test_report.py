@@ -52,7 +52,8 @@ def test_what_cannot_be_processed_is_a_warning_with_the_native_name(
     warnings = inspect_reading(read_native(source, chart))["warnings"]
     assert warnings == [
         "cannot be processed yet: channel vertical_specific_force (s/vertical_specific_forcex): "
-        "mean is 1, expected about 9.8 m/s^2; looks like g, multiply by 9.80665"
+        "mean is 1, expected about 9.8 m/s^2; looks like g, multiply by 9.80665 "
+        "(map: unit = 'g')"
     ]
 
 

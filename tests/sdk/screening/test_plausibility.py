@@ -68,12 +68,12 @@ def test_a_second_distance_that_decreases_is_a_warning_since_nothing_reads_it(na
 FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
 REFUSED: list[tuple[str, Callable[[np.ndarray], Any], str]] = [
     (FORCE, lambda a: a / 9.80665,
-     "mean is 0.9994, expected about 9.8 m/s^2; looks like g, multiply by 9.80665"),
-    (FORCE, lambda a: a - 9.80665, "; 1 g has been removed, add 9.80665 m/s^2"),
+     "mean is 0.9994, expected about 9.8 m/s^2; looks like g, multiply by 9.80665 (map: unit"),
+    (FORCE, lambda a: a - 9.80665, "; 1 g has been removed, add 9.80665 m/s^2 (map: offset = 9.80"),
     (FORCE, lambda a: a / 9.80665 - 1, "; 1 g has been removed, add 9.80665 m/s^2"),
     (FORCE, lambda a: -a, "mean is -9.8, expected about 9.8 m/s^2; the sign is inverted"),
     (FORCE, lambda a: -a / 9.80665, "looks like g with the sign inverted, multiply by -9.80665"),
-    (FORCE, lambda a: a / 0.3048, "looks like ft/s^2, multiply by 0.3048"),
+    (FORCE, lambda a: a / 0.3048, "looks like ft/s^2, multiply by 0.3048 (map: unit = 'ft/s^2')"),
     (FORCE, lambda a: a * 1000, "looks like mm/s^2, multiply by 0.001"),
     (FORCE, lambda a: a * 2, "mean is 19.6, expected about 9.8 m/s^2; check unit, axis"),
     (FORCE, lambda a: a * 0 + 9.8, "every sample is 9.8, so it measures nothing; connect the acc"),

@@ -16,9 +16,12 @@ import pytest
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording
+from floatref.viewer import write_profile_page, write_recording_page
+from floatref.viewer.page_file import PageOptions
 
 CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "chrome")
 ARRAY = re.compile(r'<script type="text/plain" id="array-(\d+)">([^<]*)</script>')
+DRAWN = "performance.getEntriesByName('drawn').length > 0"
 DOCUMENT = re.compile(r'<script type="application/json" id="document">(.*?)</script>', re.DOTALL)
 
 
@@ -121,3 +124,37 @@ def chromium() -> Iterator[Any]:
         browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
         yield browser
         browser.close()
+
+
+@pytest.fixture
+def opened(chromium: Any) -> Iterator[Callable[..., Any]]:
+    """Return what opens a page; at the end its console has to be empty."""
+    contexts, said = [], []
+
+    def call(path: Path, **options: Any) -> Any:
+        context = chromium.new_context(**({"viewport": {"width": 1200, "height": 900}} | options))
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda message: said.append(message.text))
+        page.on("pageerror", lambda error: said.append(str(error)))
+        page.on("request", lambda request: said.append(request.url) if "http" in request.url else 0)
+        page.goto(path.as_uri())
+        page.wait_for_function(DRAWN)
+        return page
+
+    yield call
+    for context in contexts:
+        context.close()
+    assert said == []
+
+
+@pytest.fixture(scope="module")
+def pages(
+    tmp_path_factory: pytest.TempPathFactory, road: Callable[..., Profile], drive: Recording
+) -> Path:
+    """Return the folder of a page of two runs with a recording, and of that recording."""
+    folder = tmp_path_factory.mktemp("pages")
+    runs = {"first": road(), "late": road(shift=-8)}
+    write_profile_page(folder / "runs.html", runs, PageOptions(), drive)
+    write_recording_page(folder / "drive.html", "drive", drive, PageOptions(most_mb=1.0))
+    return folder

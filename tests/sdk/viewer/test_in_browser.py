@@ -1,6 +1,6 @@
 """A page in a browser: zooming draws other data, keys and touch work, the console stays empty."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -26,48 +26,7 @@ INSIDE = """([k, from, to]) => {
 """Whether the solid line of every wheel path has a number there, and whether all of it is a gap.
 
 A place without a bin, undefined, is no gap: the line goes on across it."""
-DRAWN = "performance.getEntriesByName('drawn').length > 0"
 DATA = "k => { drawNow(); return panels[k].plot.data.map((row) => [...row]); }"
-PHONE = {
-    "viewport": {"width": 390, "height": 844},
-    "is_mobile": True,
-    "has_touch": True,
-    "device_scale_factor": 2,
-}
-
-
-@pytest.fixture
-def opened(chromium: Any) -> Iterator[Callable[..., Any]]:
-    """Return what opens a page; at the end its console has to be empty."""
-    contexts, said = [], []
-
-    def call(path: Path, **options: Any) -> Any:
-        context = chromium.new_context(**({"viewport": {"width": 1200, "height": 900}} | options))
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda message: said.append(message.text))
-        page.on("pageerror", lambda error: said.append(str(error)))
-        page.on("request", lambda request: said.append(request.url) if "http" in request.url else 0)
-        page.goto(path.as_uri())
-        page.wait_for_function(DRAWN)
-        return page
-
-    yield call
-    for context in contexts:
-        context.close()
-    assert said == []
-
-
-@pytest.fixture(scope="module")
-def pages(
-    tmp_path_factory: pytest.TempPathFactory, road: Callable[..., Profile], drive: Recording
-) -> Path:
-    """Return the folder of a page of two runs with a recording, and of that recording."""
-    folder = tmp_path_factory.mktemp("pages")
-    runs = {"first": road(), "late": road(shift=-8)}
-    write_profile_page(folder / "runs.html", runs, PageOptions(), drive)
-    write_recording_page(folder / "drive.html", "drive", drive, PageOptions(most_mb=1.0))
-    return folder
 
 
 def text(page: Any) -> str:
@@ -139,7 +98,7 @@ def test_keys_move_zoom_and_switch(opened: Callable[..., Any], pages: Path) -> N
 def test_units_and_axis_change_picture_and_table(opened: Callable[..., Any], pages: Path) -> None:
     page = opened(pages / "runs.html")
     before = page.evaluate(DATA, 0)
-    cell = "table tbody tr >> nth=0 >> td >> nth=4"
+    cell = "table tbody tr >> nth=0 >> td >> nth=2"
     metric = float(page.text_content(cell))
     page.select_option("select >> nth=1", "us")
     after = page.evaluate(DATA, 0)
@@ -195,6 +154,22 @@ def test_wheel_paths_runs_and_shift(opened: Callable[..., Any], pages: Path) -> 
     assert all(y is None for y in page.evaluate(DATA, 0)[9])
 
 
+def test_a_run_65_m_away_is_drawn_over_the_reference(
+    opened: Callable[..., Any], road: Callable[..., Profile], tmp_path: Path
+) -> None:
+    runs = {"first": road(), "late": replace(road(), start_m=65.0), "other": road(seed=8)}
+    write_profile_page(tmp_path / "moved.html", runs, PageOptions())
+    page = opened(tmp_path / "moved.html")
+    choices = page.locator(".run").all_text_contents()
+    assert "moved by -65.000 m" in choices[1]
+    assert "place not sure: the best correlation" in choices[2]
+    page.evaluate("showPart(50, 52)")
+    data = page.evaluate(DATA, 0)
+    pairs = [pair for pair in zip(data[1], data[9], strict=True) if None not in pair]
+    assert len(pairs) > 20
+    np.testing.assert_allclose(*np.array(pairs, dtype=np.float64).T, atol=1e-3)
+
+
 def test_a_row_of_the_table_shows_its_place(opened: Callable[..., Any], pages: Path) -> None:
     page = opened(pages / "runs.html")
     page.get_by_role("button", name="100.00", exact=True).first.click()
@@ -217,22 +192,3 @@ def test_a_page_of_next_to_nothing_opens(opened: Callable[..., Any], tmp_path: P
     lone = Recording((Channel.of("gnss_height", [1.0], StampedClock.of([6.0])),))
     write_recording_page(tmp_path / "lone.html", "lone", lone, PageOptions())
     assert "every one of the samples" in text(opened(tmp_path / "lone.html"))
-
-
-def test_a_phone_shows_it_and_pans_by_touch(opened: Callable[..., Any], pages: Path) -> None:
-    page = opened(pages / "drive.html", **PHONE)
-    assert page.evaluate("document.documentElement.scrollWidth") <= 390
-    sizes = page.evaluate(
-        "[...document.querySelectorAll('#moves button')].map(b => b.offsetHeight)"
-    )
-    assert min(sizes) >= 44
-    page.evaluate("showPart(10, 20)")
-    page.evaluate("drawNow()")
-    touch = """(xs) => xs.forEach((x, k) => document.querySelector('#picture').dispatchEvent(
-      new PointerEvent(k ? 'pointermove' : 'pointerdown',
-        {pointerId: 1, pointerType: 'touch', clientX: x, clientY: 300, bubbles: true})))"""
-    page.evaluate(touch, [200, 150])
-    begin, end = page.evaluate("[shown.begin, shown.end]")
-    assert begin > 10.5
-    assert end - begin == pytest.approx(10.0)
-    assert page.locator("#map canvas").is_visible()

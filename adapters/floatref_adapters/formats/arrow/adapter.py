@@ -23,6 +23,7 @@ from floatref_adapters.formats.arrow.arrow_schema import (
     find_tables,
     is_temporal,
 )
+from floatref_adapters.formats.arrow.parquet_footer import MARK, holds_profile
 from floatref_adapters.shared.refusals import library, prefix_errors
 from floatref_adapters.shared.row_pieces import keep_freed_memory
 
@@ -50,8 +51,9 @@ class Parquet:
     summary = "Apache Parquet, with times as a column or a rate as metadata"
 
     def recognises(self, source: Path) -> bool:
-        """Tell whether ``source`` begins as a Parquet file does."""
-        return _start(source).startswith((b"PAR1", ENCRYPTED))
+        """Tell whether ``source`` begins as a Parquet file does, and is no profile."""
+        start = _start(source)
+        return start.startswith(ENCRYPTED) or (start.startswith(MARK) and not holds_profile(source))
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
         """Return the columns of each clock; InputError if the file cannot be used.

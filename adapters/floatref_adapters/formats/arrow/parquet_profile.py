@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, Profile, ProfileTrack
+from floatref_adapters.formats.arrow.parquet_footer import FORMAT, begins_as_parquet, holds_profile
 from floatref_adapters.shared.profile_columns import (
     DISTANCE,
     make_columns,
@@ -22,8 +23,6 @@ from floatref_adapters.shared.profile_columns import (
 )
 from floatref_adapters.shared.refusals import library
 
-MARK = b"PAR1"
-FORMAT = "floatref-profile/1"
 ROWS = 1 << 17
 """Points of a row group, and points that are handled together."""
 NEAR = 0.01
@@ -44,11 +43,11 @@ class ParquetProfile:
         _libraries("writing Parquet")
 
     def recognises(self, path: Path) -> bool:
-        """Tell whether ``path`` begins as a Parquet file does."""
-        if not path.is_file():
-            return False
-        with path.open("rb") as stream:
-            return stream.read(len(MARK)) == MARK
+        """Tell whether ``path`` is a Parquet file whose footer is that of a profile.
+
+        One whose footer cannot be read is recognised: reading it says why.
+        """
+        return begins_as_parquet(path) and holds_profile(path) is not False
 
     def read(self, path: Path) -> Profile:
         """Return the profile in ``path``, as it was written.

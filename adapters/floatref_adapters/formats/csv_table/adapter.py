@@ -29,9 +29,11 @@ LISTED = 1024
 """Bytes by which a table is recognised."""
 _OTHERS = re.compile(
     r"\s*(\$[A-Z]{2}|[#%][A-Z0-9]+,|ERDFILE|date \w+ |base (hex|dec)|[{\[]"
-    r'|"?distance_m"?,.*_elevation_m|timestamp,arbitration_id,)'
+    r'|"?distance_m"?,.*_elevation_m|timestamp,arbitration_id,'
+    r"|(?P<channel>[^\t\r\n]+?) *- *(?i:distance) *\([^()\t\r\n]*\) *\t[^\t\r\n]*(?P=channel))"
 )
-"""How NMEA, NovAtel ASCII, ERD, Vector ASC, JSON, our profiles and CSV of python-can begin."""
+"""How NMEA, NovAtel ASCII, ERD, Vector ASC, JSON, our profiles, CSV of python-can and the profiles
+of viewers begin."""
 
 
 class CsvTable:

@@ -25,7 +25,12 @@ from floatref_adapters.formats.viewer_text.column_pairs import (
     is_header,
     unit_of,
 )
-from floatref_adapters.formats.viewer_text.text_rows import ROWS, Columns
+from floatref_adapters.formats.viewer_text.text_rows import (
+    ROWS,
+    Columns,
+    distance_decimals,
+    write_number,
+)
 from floatref_adapters.shared.length_units import to_metres
 from floatref_adapters.shared.refusals import prefix_errors
 
@@ -77,8 +82,10 @@ class ViewerText:
             channels = list(_channels(profile))
             titles = (title for name, unit, _ in channels for title in _titles(name, unit))
             stream.write(TAB.join(titles) + "\r\n")
-            for first in range(0, profile.tracks[0].elevation.size, ROWS):
-                stream.writelines(_lines(profile, channels, first))
+            count = profile.tracks[0].elevation.size
+            decimals = distance_decimals(profile.start_m, profile.interval_m, count)
+            for first in range(0, count, ROWS):
+                stream.writelines(_lines(profile, channels, first, decimals))
 
 
 def _profile(stream: io.TextIOWrapper) -> Profile:
@@ -147,13 +154,15 @@ def _titles(name: str, unit: str) -> tuple[str, str]:
 
 
 def _lines(
-    profile: Profile, channels: list[tuple[str, str, NDArray[Any]]], first: int
+    profile: Profile, channels: list[tuple[str, str, NDArray[Any]]], first: int, decimals: int
 ) -> Iterator[str]:
     count = min(ROWS, profile.tracks[0].elevation.size - first)
     index = np.arange(first, first + count)
-    distances = list(map(repr, (profile.start_m + profile.interval_m * index).tolist()))
+    places = (profile.start_m + profile.interval_m * index).tolist()
+    distances = [repr(round(place, decimals)) for place in places]
     columns = []
     for _, _, values in channels:
-        part = values[first : first + count].tolist()
-        columns += [distances, ["" if value != value else repr(value) for value in part]]
+        part = values[first : first + count]
+        write = str if part.dtype.kind == "i" else write_number
+        columns += [distances, [write(value) for value in part.tolist()]]
     return (TAB.join(row) + "\r\n" for row in zip(*columns, strict=True))

@@ -1,5 +1,9 @@
-"""The rows of viewers' text: a pair of numbers for every channel, some shorter than others."""
+"""The rows of viewers' text: a pair of numbers for every channel, some shorter than others.
 
+Numbers are written in at most 15 characters, so that 0.0254 is 0.0254 whatever its last bit is.
+"""
+
+import math
 from collections.abc import Iterator, Sequence
 from itertools import islice
 from typing import TextIO
@@ -15,6 +19,31 @@ ROWS = 1 << 14
 """Rows that are handled together."""
 FIRST_ROWS = 1000
 """Rows whose distances tell with how many decimals they are written."""
+DECIMALS, DIGITS = 12, 13
+"""Decimals of numbers below one, and significant digits of others: a picometre, or a part in 1e12.
+
+With a sign and a point either has 15 characters."""
+
+
+def write_number(value: float) -> str:
+    """Return the shortest text within 5e-13 of ``value``, or of its share above one; "" for NaN.
+
+    It has at most 15 characters up to 1e11, which no elevation in m exceeds.
+    """
+    if value != value:
+        return ""
+    if -1.0 < value < 1.0:
+        return repr(round(value, DECIMALS) + 0.0)
+    return repr(float(f"{value:.{DIGITS}g}"))
+
+
+def distance_decimals(start: float, interval: float, count: int) -> int:
+    """Return the decimals with which the farthest of ``count`` distances has 13 digits.
+
+    All of them have these: a column that is rounded alike has one interval when it is read.
+    """
+    farthest = max(abs(start), abs(start + interval * (count - 1)))
+    return DECIMALS - max(0, math.floor(math.log10(farthest))) if farthest > 0.0 else DECIMALS
 
 
 class Columns:

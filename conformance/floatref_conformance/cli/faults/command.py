@@ -44,7 +44,9 @@ from floatref_conformance.faults.study import (
     "--jobs", type=click.IntRange(min=1), default=1, show_default=True, help="Processes at a time."
 )
 @click.option("--nominal", is_flag=True, help="Record accelerometers, lasers and an encoder alone.")
-@click.option("--out", type=click.Path(path_type=Path), help="Also write the JSON object to FILE.")
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path), help="Also write the JSON object to FILE."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 @click.option(
     "--clean",

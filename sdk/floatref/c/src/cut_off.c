@@ -59,16 +59,30 @@ static inline fr_real power_of_e(fr_real u)
     return power;
 }
 
+/* Frequencies of at most a group. Each limit of the exponents has a loop of its own: in one with
+ * the powers, compilers take the limits for branches of the whole. */
+static inline void frequencies_here(fr_schedule s, const fr_real *speed, size_t count,
+                                    fr_real *frequency)
+{
+    fr_real u[FR_GROUP], high[FR_GROUP];
+    for (size_t i = 0; i < count; i++) {
+        fr_real exponent = s.steepness * (speed[i] - s.transition);
+        u[i] = exponent > BRIEF ? BRIEF : exponent;
+        high[i] = speed[i] * s.per_metre;
+    }
+    for (size_t i = 0; i < count; i++)
+        u[i] = u[i] < -BRIEF ? -BRIEF : u[i];
+    for (size_t i = 0; i < count; i++)
+        frequency[i] = high[i] + (s.low_speed - high[i]) / (1 + power_of_e(u[i]));
+}
+
 void fr_frequencies(const fr_schedule *schedule, const fr_real *speed, size_t count,
                     fr_real *frequency)
 {
-    fr_schedule s = *schedule;
-    for (size_t i = 0; i < count; i++) {
-        fr_real u = s.steepness * (speed[i] - s.transition), high = speed[i] * s.per_metre;
-        u = u > BRIEF ? BRIEF : u;
-        u = u < -BRIEF ? -BRIEF : u;
-        frequency[i] = high + (s.low_speed - high) / (1 + power_of_e(u));
-    }
+    size_t done = 0;
+    for (; count - done >= FR_GROUP; done += FR_GROUP)
+        frequencies_here(*schedule, speed + done, FR_GROUP, frequency + done);
+    frequencies_here(*schedule, speed + done, count - done, frequency + done);
 }
 
 void fr_wave_numbers(const fr_real *speed, fr_real largest, size_t count, fr_real *values)
@@ -85,13 +99,8 @@ void fr_wave_numbers(const fr_real *speed, fr_real largest, size_t count, fr_rea
 static int far_within(const fr_schedule *schedule, const fr_tangent *tangent, const fr_real *speed,
                       size_t count)
 {
-    fr_real least = 0, largest = 0, half = FR_R(0.49);
-    for (size_t i = 0; i < count; i++) {
-        least = speed[i] < least ? speed[i] : least;
-        largest = speed[i] > largest ? speed[i] : largest;
-    }
-    return least >= 0 && largest * schedule->per_metre * tangent->step < half &&
-           schedule->low_speed * tangent->step < half;
+    fr_real half = FR_R(0.49), most = half / (schedule->per_metre * tangent->step);
+    return schedule->low_speed * tangent->step < half && fr_all_within(speed, count, most);
 }
 
 fr_status fr_check_speeds(const fr_schedule *schedule, const fr_tangent *tangent,

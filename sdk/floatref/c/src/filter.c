@@ -150,49 +150,80 @@ static inline fr_real advance(fr_real state, fr_real part, fr_real input)
 #endif
 }
 
-static void run_first_order(fr_filter *filter, const fr_real *x, size_t done, size_t count,
-                            fr_real *y)
+/* Samples from x[0] on, `stride` apart. The last two arguments are constants where it is called, so
+ * each loop is one of its own; where no sample is missing it has no comparison, which takes longer
+ * than the recursion waits for itself. */
+static inline void first_order(fr_filter *filter, const fr_real *x, ptrdiff_t stride, size_t count,
+                               fr_real *y, int high, int missing)
 {
     fr_real s = filter->s1, held = filter->held, gain = filter->gain, k1 = filter->k1;
-    int high = filter->kind == HIGH_1, backward = filter->backward;
-    for (size_t k = done; k < count; k++) {
-        size_t i = fr_index(k, count, backward);
-        fr_real value = fr_missing(x[i]) ? held : x[i];
+    ptrdiff_t i = 0;
+    for (size_t k = 0; k < count; k++) {
+        fr_real value = missing ? fr_bridged(x[i], held) : x[i];
         held = value;
         y[i] = high ? (value - s) * gain : s + gain * (value - s);
         s = advance(s, k1 * s, k1 * value);
+        i += stride;
     }
     filter->s1 = s;
     filter->held = held;
 }
 
-static void run_second_order(fr_filter *filter, const fr_real *x, size_t done, size_t count,
-                             fr_real *y)
+static inline void second_order(fr_filter *filter, const fr_real *x, ptrdiff_t stride, size_t count,
+                                fr_real *y, int high, int missing)
 {
     fr_real s1 = filter->s1, s2 = filter->s2, held = filter->held, gain = filter->gain;
     fr_real p = filter->p, c = filter->c, k1 = filter->k1, k2 = filter->k2, k3 = filter->k3;
-    int high = filter->kind == HIGH_2, backward = filter->backward;
-    for (size_t k = done; k < count; k++) {
-        size_t i = fr_index(k, count, backward);
-        fr_real value = fr_missing(x[i]) ? held : x[i], next;
+    ptrdiff_t i = 0;
+    for (size_t k = 0; k < count; k++) {
+        fr_real value = missing ? fr_bridged(x[i], held) : x[i], band = s1, low = s2;
+        fr_real of_band = k1 * band, of_low = k1 * low;
+        s1 = advance(band, k2 * band, k1 * value - of_low);
+        s2 = advance(low, k3 * low, of_band + k3 * value);
+        y[i] = high ? ((value - low) - p * band) * gain : low + gain * (band + c * (value - low));
         held = value;
-        y[i] = high ? ((value - s2) - p * s1) * gain : s2 + gain * (s1 + c * (value - s2));
-        next = advance(s1, k2 * s1, k1 * value - k1 * s2);
-        s2 = advance(s2, k3 * s2, k1 * s1 + k3 * value);
-        s1 = next;
+        i += stride;
     }
     filter->s1 = s1;
     filter->s2 = s2;
     filter->held = held;
 }
 
+/* Samples behind the start of which some may be missing: a loop for each order. */
+static void run_bridging(fr_filter *filter, const fr_real *x, ptrdiff_t stride, size_t count,
+                         fr_real *y)
+{
+    if (filter->kind == HIGH_1 || filter->kind == LOW_1)
+        first_order(filter, x, stride, count, y, filter->kind == HIGH_1, 1);
+    else
+        second_order(filter, x, stride, count, y, filter->kind == HIGH_2, 1);
+}
+
+/* The same of samples that are all there: a loop for each kind. */
+static void run_whole(fr_filter *filter, const fr_real *x, ptrdiff_t stride, size_t count,
+                      fr_real *y)
+{
+    if (filter->kind == HIGH_1)
+        first_order(filter, x, stride, count, y, 1, 0);
+    else if (filter->kind == LOW_1)
+        first_order(filter, x, stride, count, y, 0, 0);
+    else if (filter->kind == HIGH_2)
+        second_order(filter, x, stride, count, y, 1, 0);
+    else
+        second_order(filter, x, stride, count, y, 0, 0);
+}
+
 void fr_filter_run(fr_filter *filter, const fr_real *x, size_t count, fr_real *y)
 {
     size_t done = filter->started == 0 ? begin_filter(filter, x, count, y) : 0u;
-    if (filter->kind == HIGH_1 || filter->kind == LOW_1)
-        run_first_order(filter, x, done, count, y);
+    ptrdiff_t stride = filter->backward != 0 ? -1 : 1;
+    if (done == count)
+        return;
+    size_t first = fr_index(done, count, filter->backward);
+    if (filter->missing == FR_MISSING_BRIDGED)
+        run_bridging(filter, x + first, stride, count - done, y + first);
     else
-        run_second_order(filter, x, done, count, y);
+        run_whole(filter, x + first, stride, count - done, y + first);
 }
 
 fr_status fr_filter_push(fr_filter *filter, const fr_real *x, size_t count, fr_real *y,

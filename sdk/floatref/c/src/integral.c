@@ -52,9 +52,14 @@ static fr_status check_integral(const fr_integral *integral, const fr_real *x, s
     return status == FR_OK ? fr_check_samples(x, count, integral->missing) : status;
 }
 
-static fr_real bridged(fr_real value, fr_real before)
+/* Samples from the second one on. */
+static void run_constant(fr_trapezoid *sum, fr_real half_step, const fr_real *x, size_t count,
+                         fr_real *y)
 {
-    return fr_missing(value) ? before : value;
+    fr_trapezoid s = *sum;
+    for (size_t i = 1; i < count; i++)
+        y[i] = fr_trapezoid_next(&s, fr_bridged(x[i], s.last), half_step);
+    *sum = s;
 }
 
 fr_status fr_integral_push(fr_integral *integral, const fr_real *x, size_t count, fr_real *y,
@@ -67,8 +72,9 @@ fr_status fr_integral_push(fr_integral *integral, const fr_real *x, size_t count
     if (status != FR_OK)
         return status;
     sum = integral->sum;
-    for (size_t i = 0; i < count; i++)
-        y[i] = fr_trapezoid_step(&sum, bridged(x[i], sum.last), integral->half_step);
+    if (count > 0u)
+        y[0] = fr_trapezoid_step(&sum, fr_bridged(x[0], sum.last), integral->half_step);
+    run_constant(&sum, integral->half_step, x, count, y);
     integral->sum = sum;
     *written = count;
     return FR_OK;
@@ -85,7 +91,7 @@ fr_status fr_integral_push_steps(fr_integral *integral, const fr_real *x, const 
         return status;
     sum = integral->sum;
     for (size_t i = 0; i < count; i++)
-        y[i] = fr_trapezoid_step(&sum, bridged(x[i], sum.last), FR_R(0.5) * time_step[i]);
+        y[i] = fr_trapezoid_step(&sum, fr_bridged(x[i], sum.last), FR_R(0.5) * time_step[i]);
     integral->sum = sum;
     *written = count;
     return FR_OK;
@@ -105,9 +111,9 @@ static void run_reflecting(fr_integral *integral, const fr_real *velocity, const
     fr_trapezoid sum = integral->sum;
     fr_real before = integral->height;
     for (size_t i = 0; i < count; i++) {
-        fr_real reading = bridged(height[i], before);
+        fr_real reading = fr_bridged(height[i], before);
         int inside = sum.started != 0 && time_step[i] > 0;
-        (void)fr_trapezoid_step(&sum, bridged(velocity[i], sum.last), FR_R(0.5) * adjusted[i]);
+        (void)fr_trapezoid_step(&sum, fr_bridged(velocity[i], sum.last), FR_R(0.5) * adjusted[i]);
         if (inside)
             sum.total += reflected(reading - before, adjusted[i], time_step[i]);
         before = reading;

@@ -12,6 +12,14 @@ typedef struct fr_trapezoid {
     fr_real last, total;
 } fr_trapezoid;
 
+/* The same behind the first sample: an object that is known to have started. */
+static inline fr_real fr_trapezoid_next(fr_trapezoid *sum, fr_real value, fr_real half_step)
+{
+    sum->total = sum->total + half_step * (value + sum->last);
+    sum->last = value;
+    return sum->total;
+}
+
 static inline fr_real fr_trapezoid_step(fr_trapezoid *sum, fr_real value, fr_real half_step)
 {
     if (sum->started != 0)

@@ -119,7 +119,7 @@ static inline fr_real drive(car *moving, fr_real slope)
 {
     fr_real z = fr_mode_step(&moving->body, slope);
     z += fr_mode_step(&moving->axle, slope);
-    moving->total += (double)(z < 0 ? -z : z);
+    moving->total += fabs((double)z);
     return z;
 }
 
@@ -150,10 +150,49 @@ static size_t drive_on(fr_iri *iri, car *moving, fr_real *trace)
     return made;
 }
 
+/* Behind the start every point brings one output, whose other end is the oldest one. As many as
+ * neither place comes to the end of the ring for. */
+static size_t drive_run(fr_iri *iri, car *moving, const fr_real *elevation, size_t count,
+                        fr_real *trace)
+{
+    fr_real *newest = ring_of(iri) + iri->newest, *oldest = ring_of(iri) + iri->oldest;
+    uint32_t furthest = iri->newest > iri->oldest ? iri->newest : iri->oldest;
+    size_t left = iri->room - furthest, size = count < left ? count : left;
+    fr_real per_window = iri->per_window, start_slope = iri->start_slope;
+    car m = *moving;
+    for (size_t i = 0; i < size; i++) {
+        fr_real z = elevation[i], rise = z - oldest[i];
+        newest[i] = z;
+        trace[i] = drive(&m, rise * per_window - start_slope);
+    }
+    *moving = m;
+    iri->newest = place_at(iri, iri->newest, (uint32_t)size);
+    iri->oldest = place_at(iri, iri->oldest, (uint32_t)size);
+    iri->points += size;
+    iri->outputs += size;
+    return size;
+}
+
+static size_t drive_all(fr_iri *iri, car *moving, const fr_real *elevation, size_t count,
+                        fr_real *trace)
+{
+    size_t made = 0, done = 0;
+    while (done < count && ready_at(iri, iri->points) == 0u) {
+        keep_point(iri, elevation[done]);
+        made += drive_on(iri, moving, trace + made);
+        done++;
+    }
+    while (done < count) {
+        size_t size = drive_run(iri, moving, elevation + done, count - done, trace + made);
+        done += size;
+        made += size;
+    }
+    return made;
+}
+
 fr_status fr_iri_push(fr_iri *iri, const fr_real *elevation, size_t count, fr_real *trace,
                       size_t capacity, size_t *written)
 {
-    size_t made = 0;
     fr_status status = fr_ready(iri, IRI_MAGIC);
     if (status == FR_OK)
         status = fr_room(0u, trace, capacity, written);
@@ -165,12 +204,8 @@ fr_status fr_iri_push(fr_iri *iri, const fr_real *elevation, size_t count, fr_re
     if (status != FR_OK)
         return status;
     car moving = car_of(iri);
-    for (size_t i = 0; i < count; i++) {
-        keep_point(iri, elevation[i]);
-        made += drive_on(iri, &moving, trace + made);
-    }
+    *written = drive_all(iri, &moving, elevation, count, trace);
     keep_car(iri, &moving);
-    *written = made;
     return FR_OK;
 }
 

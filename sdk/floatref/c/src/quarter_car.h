@@ -16,13 +16,15 @@ typedef struct fr_mode {
 void fr_golden_car(fr_mode modes[2], double step_s);
 
 /* Advance a mode by one interval and return its share of the output. The newest state enters each
- * sum last: the chain from point to point stays short. */
+ * sum last: the chain from point to point stays short. Products of the state come first, since
+ * compilers keep this order and a processor begins with the oldest. */
 static inline fr_real fr_mode_step(fr_mode *mode, fr_real slope)
 {
-    fr_real x = (mode->gain_re * slope - mode->pole_im * mode->y) + mode->pole_re * mode->x;
-    mode->y = (mode->gain_im * slope + mode->pole_im * mode->x) + mode->pole_re * mode->y;
-    mode->x = x;
-    return x;
+    fr_real x = mode->x, y = mode->y, across_x = mode->pole_im * y, across_y = mode->pole_im * x;
+    fr_real along_x = mode->pole_re * x, along_y = mode->pole_re * y;
+    mode->x = (mode->gain_re * slope - across_x) + along_x;
+    mode->y = (mode->gain_im * slope + across_y) + along_y;
+    return mode->x;
 }
 
 #endif

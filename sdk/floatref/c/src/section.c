@@ -15,21 +15,16 @@ static int take(fr_section *section, fr_real x, fr_real c)
     return fr_section_started(section);
 }
 
-static fr_real known(fr_real value, fr_real before)
-{
-    return fr_missing(value) ? before : value;
-}
-
 fr_real fr_section_1_any(fr_section *first, fr_real x, fr_real c)
 {
     int started = fr_section_started(first);
     if (!started)
-        first->c = known(c, first->c);
+        first->c = fr_bridged(c, first->c);
     if (!take(first, x, c))
         return 0;
     if (!started)
         first->r = first->c * first->x;
-    return fr_section_1_step(first, first->x, known(c, first->c));
+    return fr_section_1_step(first, first->x, fr_bridged(c, first->c));
 }
 
 /* The second sample of (A.15) sees (x1, y1) twice; these states are that past. */
@@ -48,7 +43,7 @@ static fr_real start_section_2(fr_section *second)
 fr_real fr_section_2_any(fr_section *second, fr_real x, fr_real c)
 {
     int started = fr_section_started(second), ready = take(second, x, c);
-    second->c = known(c, second->c);
+    second->c = fr_bridged(c, second->c);
     if (!ready)
         return 0;
     if (!started)
@@ -60,15 +55,15 @@ fr_real fr_section_12_any(fr_section *first, fr_section *second, fr_real x, fr_r
 {
     if (!fr_section_started(first) || !fr_section_started(second))
         return fr_section_2_any(second, fr_section_1_any(first, x, c), c);
-    first->x = known(x, first->x);
-    return fr_section_12_step(first, second, first->x, known(c, first->c));
+    first->x = fr_bridged(x, first->x);
+    return fr_section_12_step(first, second, first->x, fr_bridged(c, first->c));
 }
 
 fr_real fr_section_21_any(fr_section *second, fr_section *first, fr_real x, fr_real c)
 {
     if (!fr_section_started(first) || !fr_section_started(second))
         return fr_section_1_any(first, fr_section_2_any(second, x, c), c);
-    second->x = known(x, second->x);
-    second->c = known(c, second->c);
+    second->x = fr_bridged(x, second->x);
+    second->c = fr_bridged(c, second->c);
     return fr_section_21_step(second, first, second->x, second->c);
 }

@@ -26,6 +26,8 @@ const char *fr_status_text(fr_status status)
         "more samples than memory can hold; the count has run over",
         "not all signals of the set have passed; the motion of the vehicle would not cancel",
         "signals of one set were given different speeds; give all of them the same",
+        "the sample of the GNSS reading has been filtered, or has one; raise late_s, or leave it out",
+        "too many GNSS readings wait; push samples first, or raise the setting",
     };
     if (status < 0 || (size_t)status >= sizeof texts / sizeof texts[0])
         return "this number is no status of the library";

@@ -4,6 +4,7 @@
  * 5.6 and 5.7 use it. The difference is one of counts, so it is exact at any distance.
  */
 #include <math.h>
+#include <string.h>
 
 #include "travel.h"
 
@@ -42,17 +43,19 @@ void fr_travel_set(fr_travel *travel, const fr_travel_speed_config *config)
 
 fr_status fr_check_counts(const int64_t *counts, size_t count, int32_t back, int64_t before)
 {
-    int64_t furthest = before;
-    int beyond = 0, behind = 0;
+    int64_t beyond = 0, behind;
     if (count > 0u && counts == NULL)
         return FR_NULL_POINTER;
     if (count > FR_MOST_SAMPLES)
         return FR_TOO_MANY;
+    /* The first count that is behind the furthest one is behind its neighbour. */
     for (size_t i = 0; i < count; i++) {
-        beyond |= counts[i] > FR_MOST_COUNTS || counts[i] < -FR_MOST_COUNTS;
-        behind |= counts[i] < furthest;
-        furthest = counts[i] > furthest ? counts[i] : furthest;
+        beyond |= counts[i] > FR_MOST_COUNTS;
+        beyond |= counts[i] < -FR_MOST_COUNTS;
     }
+    behind = count > 0u && counts[0] < before;
+    for (size_t i = 1; i < count; i++)
+        behind |= counts[i] < counts[i - 1u];
     if (beyond != 0)
         return FR_BAD_SAMPLE;
     return behind != 0 && back == FR_BACK_REFUSED ? FR_GOES_BACK : FR_OK;
@@ -64,40 +67,71 @@ fr_status fr_travel_check(const fr_travel *travel, const int64_t *counts, size_t
     return fr_check_counts(counts, count, travel->back, furthest);
 }
 
-/* The count one window before sample i of a push; before the run the vehicle is stationary. */
-static int64_t count_before(const fr_travel *travel, const int64_t *ring, const int64_t *counts,
-                            size_t i)
+/* Where the counts one window before sample i of a push and those behind it are, `*run` of them in
+ * one piece; before the run the vehicle is stationary. */
+static const int64_t *counts_before(const fr_travel *travel, const int64_t *ring,
+                                    const int64_t *counts, size_t i, size_t *run)
 {
-    size_t at = travel->oldest + i;
-    if (i >= travel->window)
-        return counts[i - travel->window];
-    return travel->started != 0 ? ring[at < travel->window ? at : at - travel->window] : counts[0];
+    size_t window = travel->window, at = travel->oldest + i;
+    *run = i >= window ? SIZE_MAX : 1u;
+    if (i >= window)
+        return counts + (i - window);
+    if (travel->started == 0)
+        return counts;
+    *run = at < window ? window - at : window - i;
+    return ring + (at < window ? at : at - window);
+}
+
+/* A core with a single-precision unit alone converts 32 bits in one instruction, and calls a
+ * function for 64; the result is the same. */
+static inline fr_real real_of(int64_t progress)
+{
+#ifdef FR_FLOAT
+    if (progress >= INT32_MIN && progress <= INT32_MAX)
+        return FR_R((int32_t)progress);
+#endif
+    return FR_R(progress);
 }
 
 void fr_travel_speeds(const fr_travel *travel, const int64_t *ring, const int64_t *counts,
                       size_t first, size_t size, fr_real *speed)
 {
-    for (size_t k = 0; k < size; k++) {
-        int64_t progress = counts[first + k] - count_before(travel, ring, counts, first + k);
-        speed[k] = FR_R(progress) * travel->metres_per_count / travel->duration_s;
+    fr_real scale = travel->metres_per_count, duration_s = travel->duration_s;
+    size_t done = 0, run;
+    while (done < size) {
+        const int64_t *before = counts_before(travel, ring, counts, first + done, &run);
+        const int64_t *now = counts + first + done;
+        size_t some = run < size - done ? run : size - done;
+        for (size_t k = 0; k < some; k++)
+            speed[done + k] = real_of(now[k] - before[k]) * scale / duration_s;
+        done += some;
     }
+}
+
+/* Write the newest counts into the ring, which ends once at most on the way. */
+static void keep_newest(fr_travel *travel, int64_t *ring, const int64_t *counts, size_t count)
+{
+    size_t left = travel->window - travel->oldest, first = count < left ? count : left;
+    (void)memcpy(ring + travel->oldest, counts, first * sizeof *counts);
+    (void)memcpy(ring, counts + first, (count - first) * sizeof *counts);
+    travel->oldest = (uint32_t)(count < left ? travel->oldest + count : count - left);
 }
 
 void fr_travel_keep(fr_travel *travel, int64_t *ring, const int64_t *counts, size_t count)
 {
     size_t window = travel->window, skipped = count > window ? count - window : 0u;
+    int64_t furthest = travel->furthest;
     if (count > 0u && travel->started == 0) {
         for (size_t i = 0; i < window; i++)
             ring[i] = counts[0];
         travel->started = 1;
-        travel->furthest = counts[0];
+        furthest = counts[0];
     }
     for (size_t i = 0; i < count; i++)
-        travel->furthest = counts[i] > travel->furthest ? counts[i] : travel->furthest;
-    for (size_t i = skipped; i < count; i++) {
-        ring[travel->oldest] = counts[i];
-        travel->oldest = travel->oldest + 1u < travel->window ? travel->oldest + 1u : 0u;
-    }
+        furthest = counts[i] > furthest ? counts[i] : furthest;
+    travel->furthest = furthest;
+    if (count > 0u)
+        keep_newest(travel, ring, counts + skipped, count - skipped);
 }
 
 size_t fr_travel_speed_size(const fr_travel_speed_config *config)

@@ -128,35 +128,43 @@ static int all_started(const fr_varying *filter)
     return filter->config.sections == FR_SECTION_2 ? second : first && second;
 }
 
-/* A block of samples that are all there, behind the start: copies of the states stay in
- * registers, and which sections they pass is decided once. */
-static void run_quickly(fr_varying *filter, const fr_real *x, const fr_real *c, size_t size,
+/* Samples that are all there, behind the start: copies of the states stay in registers, and which
+ * sections they pass is decided once. `count` is a multiple of FR_GROUP. */
+static void run_quickly(fr_varying *filter, const fr_real *x, const fr_real *cutoff, size_t count,
                         fr_real *y)
 {
     fr_section first = filter->first, second = filter->second;
+    fr_tangent tangent = filter->tangent;
     int backward = filter->config.direction == FR_BACKWARD;
+    fr_real c[FR_GROUP];
 #define FR_EACH(step)                                                                           \
-    for (size_t k = 0; k < size; k++) {                                                         \
-        size_t i = fr_index(k, size, backward);                                                 \
-        y[i] = (step);                                                                          \
+    for (size_t done = 0; done < count; done += FR_GROUP) {                                     \
+        size_t low = backward ? count - done - FR_GROUP : done;                                 \
+        fr_tangents_here(&tangent, cutoff + low, FR_GROUP, c);                                  \
+        for (size_t k = 0; k < FR_GROUP; k++) {                                                 \
+            size_t i = fr_index(k, FR_GROUP, backward);                                         \
+            y[low + i] = (step);                                                                \
+        }                                                                                       \
     }
     if (filter->config.sections == FR_SECTION_1)
-        FR_EACH(fr_section_1_step(&first, x[i], c[i]))
+        FR_EACH(fr_section_1_step(&first, x[low + i], c[i]))
     else if (filter->config.sections == FR_SECTION_2)
-        FR_EACH(fr_section_2_step(&second, x[i], c[i]))
+        FR_EACH(fr_section_2_step(&second, x[low + i], c[i]))
     else if (filter->config.sections == FR_SECTION_12)
-        FR_EACH(fr_section_12_step(&first, &second, x[i], c[i]))
+        FR_EACH(fr_section_12_step(&first, &second, x[low + i], c[i]))
     else
-        FR_EACH(fr_section_21_step(&second, &first, x[i], c[i]))
+        FR_EACH(fr_section_21_step(&second, &first, x[low + i], c[i]))
 #undef FR_EACH
     filter->first = first;
     filter->second = second;
 }
 
-static void run_carefully(fr_varying *filter, const fr_real *x, const fr_real *c, size_t size,
+static void run_carefully(fr_varying *filter, const fr_real *x, const fr_real *cutoff, size_t size,
                           fr_real *y)
 {
     int backward = filter->config.direction == FR_BACKWARD;
+    fr_real c[FR_BLOCK];
+    fr_tangents(&filter->tangent, cutoff, size, c);
     for (size_t k = 0; k < size; k++) {
         size_t i = fr_index(k, size, backward);
         y[i] = pass_varying(filter, x[i], c[i]);
@@ -168,17 +176,17 @@ static void run_varying(fr_varying *filter, const fr_real *x, const fr_real *cut
 {
     int backward = filter->config.direction == FR_BACKWARD;
     int whole = filter->config.missing == FR_MISSING_REFUSED;
-    fr_real c[FR_BLOCK];
     size_t done = 0;
     while (done < count) {
-        int quick = whole && filter->config.form == FR_RECURSION && all_started(filter);
-        size_t size = count - done < FR_BLOCK ? count - done : FR_BLOCK;
+        int quick = whole && filter->config.form == FR_RECURSION && all_started(filter) &&
+                    count - done >= FR_GROUP;
+        size_t most = count - done < FR_BLOCK ? count - done : FR_BLOCK;
+        size_t size = quick ? (count - done) / FR_GROUP * FR_GROUP : most;
         size_t low = backward ? count - done - size : done;
-        fr_tangents(&filter->tangent, cutoff + low, size, c);
         if (quick)
-            run_quickly(filter, x + low, c, size, y + low);
+            run_quickly(filter, x + low, cutoff + low, size, y + low);
         else
-            run_carefully(filter, x + low, c, size, y + low);
+            run_carefully(filter, x + low, cutoff + low, size, y + low);
         done += size;
     }
 }

@@ -28,6 +28,7 @@ SOME_FAILED = 5
 @click.command("batch")
 @click.argument("given", metavar="IN...", nargs=-1, required=True)
 @click.option(
+    "-o",
     "--out",
     required=True,
     type=click.Path(path_type=Path),
@@ -54,7 +55,8 @@ SOME_FAILED = 5
 @click.option(
     "--measures",
     is_flag=True,
-    help="Add Ride Number, localized roughness, straightedge and others to every segment.",
+    help="Add Ride Number, localized roughness, straightedge and others to every segment, by the "
+    "default limits of roughness and straightedge.",
 )
 @click.option(
     "--gis",

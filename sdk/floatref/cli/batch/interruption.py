@@ -8,7 +8,7 @@ from typing import NoReturn
 
 import click
 
-from floatref.cli.lazy import INTERRUPTED, Interrupt
+from floatref.cli.program.interrupts import INTERRUPTED, Interrupt
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 

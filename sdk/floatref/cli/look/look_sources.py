@@ -1,21 +1,18 @@
 """What `view` and `plot` are given: profiles, or one recording, each found by its content."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import reduce
 from pathlib import Path
 
 import click
 
+from floatref.cli.recordings.recording_options import READING, RecordingReader, add_options
 from floatref.engine.formats import is_profile, profile_of
 from floatref.engine.recordings.readers import find_readers
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
 from floatref.interfaces.adapter import RecordingDirectory
-from floatref.mapping.sources import recording_of
 from floatref.values.parts.shown_units import SYSTEMS
 from floatref.values.profile import Profile
-from floatref.values.recording import Recording
 
 Command = Callable[..., None]
 OPTIONS = (
@@ -32,49 +29,22 @@ OPTIONS = (
         metavar="NAME",
         help="Channel of a recording, such as height or left.height; repeat it for more.",
     ),
-    click.option("--adapter", metavar="NAME", help="Read the recording with this adapter."),
-    click.option(
-        "--map",
-        "channel_map",
-        type=click.Path(path_type=Path),
-        metavar="FILE.toml",
-        help="Channel map of a native file.",
-    ),
-    click.option("--overwrite", is_flag=True, help="Replace an existing target."),
+    *READING,
 )
 
 
 def look_options(command: Command) -> Command:
     """Give ``command`` the options that `view` and `plot` have in common."""
-    return reduce(lambda found, option: option(found), reversed(OPTIONS), command)
+    return add_options(command, OPTIONS)
 
 
-@dataclass(frozen=True)
-class Reading:
-    """How a recording is read: by a named adapter, by a channel map, or as it is recognised."""
-
-    adapter: str | None = None
-    channel_map: Path | None = None
-
-    @property
-    def is_stated(self) -> bool:
-        """Whether an adapter or a map is given, so that the source is a recording."""
-        return self.adapter is not None or self.channel_map is not None
-
-    def recording_at(self, path: Path) -> Recording:
-        """Return the recording at ``path``; its warnings go to stderr, one line each."""
-        source = recording_of(path, self.adapter, self.channel_map)
-        for line in source.warnings:
-            click.echo(f"Warning: {line}", err=True)
-        return source.recording
-
-    def refuse_without_recording(self) -> None:
-        """Raise InputError if an adapter or a map is given where all sources are profiles."""
-        if self.is_stated:
-            raise InputError("--adapter and --map are for a recording; leave them out for profiles")
+def refuse_without_recording(reading: RecordingReader) -> None:
+    """Raise InputError if an adapter or a map is given where all sources are profiles."""
+    if reading.is_stated:
+        raise InputError("--adapter and --map are for a recording; leave them out for profiles")
 
 
-def is_recording(path: Path, reading: Reading) -> bool:
+def is_recording(path: Path, reading: RecordingReader) -> bool:
     """Return whether ``path`` holds a recording; InputError if it is missing or neither."""
     if not path.exists():
         raise InputError(f"{path}: not found; give a profile or a recording")
@@ -98,7 +68,7 @@ def read_profiles(paths: Sequence[Path]) -> dict[str, Profile]:
     """
     names = short_names(paths)
     for path in paths:
-        if is_recording(path, Reading()):
+        if is_recording(path, RecordingReader()):
             raise InputError(
                 f"{path}: a recording among profiles; give it alone, or with --recording"
             )

@@ -6,12 +6,12 @@ from pathlib import Path
 import click
 
 from floatref.cli.look.look_sources import (
-    Reading,
     check_out,
     is_recording,
     look_options,
     refuse_channels,
 )
+from floatref.cli.recordings.recording_options import RecordingReader
 from floatref.engine.formats import profile_of
 from floatref.files.sources import name_errors
 from floatref.values.display.short_text import join_some
@@ -56,7 +56,7 @@ def plot(
 
     check_out(out, [source], overwrite)
     check_drawing(out)
-    window, reading = Window(begin, end), Reading(adapter, channel_map)
+    window, reading = Window(begin, end), RecordingReader(adapter, channel_map)
     if is_recording(source, reading):
         drawn = _draw_recording(source, out, reading, window, channels, units, title)
     else:
@@ -82,7 +82,7 @@ def _draw_profile(source: Path, out: Path, window: Window, units: str, title: st
 def _draw_recording(
     source: Path,
     out: Path,
-    reading: Reading,
+    reading: RecordingReader,
     window: Window,
     channels: tuple[str, ...],
     units: str,

@@ -7,13 +7,14 @@ from typing import Any
 import click
 
 from floatref.cli.look.look_sources import (
-    Reading,
     check_out,
     is_recording,
     look_options,
     read_profiles,
     refuse_channels,
+    refuse_without_recording,
 )
+from floatref.cli.recordings.recording_options import RecordingReader, beside
 from floatref.errors import InputError
 from floatref.values.parts.windows import Window
 from floatref.viewer.page_file import PageOptions
@@ -37,11 +38,7 @@ SUFFIXES = (".html", ".htm")
     metavar="FILE.html",
     help="Where to write.",
 )
-@click.option(
-    "--recording",
-    type=click.Path(path_type=Path),
-    help="Recording of the first PROFILE: adds time, speed, events and the map.",
-)
+@beside("Recording of the first PROFILE: adds time, speed, events and the map.")
 @click.option(
     "--segment",
     "segment_m",
@@ -83,7 +80,7 @@ def view(
     if out.suffix.lower() not in SUFFIXES:
         raise InputError(f"{out}: not the name of a page; end it with {' or '.join(SUFFIXES)}")
     check_out(out, [*sources, *filter(None, [recording])], overwrite)
-    reading = Reading(adapter, channel_map)
+    reading = RecordingReader(adapter, channel_map)
     if recording is None and len(sources) == 1 and is_recording(sources[0], reading):
         document = _view_recording(sources[0], out, options, channels, reading)
     else:
@@ -95,7 +92,7 @@ def view(
 
 
 def _view_recording(
-    source: Path, out: Path, options: PageOptions, channels: Sequence[str], reading: Reading
+    source: Path, out: Path, options: PageOptions, channels: Sequence[str], reading: RecordingReader
 ) -> dict[str, Any]:
     from floatref.viewer import write_recording_page
 
@@ -108,12 +105,12 @@ def _view_profiles(
     out: Path,
     options: PageOptions,
     recording: Path | None,
-    reading: Reading,
+    reading: RecordingReader,
 ) -> dict[str, Any]:
     from floatref.viewer import write_profile_page
 
     if recording is None:
-        reading.refuse_without_recording()
+        refuse_without_recording(reading)
     profiles = read_profiles(sources)
     found = None if recording is None else reading.recording_at(recording)
     return write_profile_page(out, profiles, options, found)

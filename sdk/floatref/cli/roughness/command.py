@@ -8,9 +8,9 @@ import click
 
 from floatref.cli.number_option import number_option
 from floatref.cli.printing import print_json
+from floatref.cli.recordings.segment_places import layer_of, layer_options, write_profile_layer
 from floatref.cli.roughness.roughness_report import RoughnessLimits, roughness_report
 from floatref.cli.roughness.roughness_tables import print_tables
-from floatref.cli.segment_places import layer_of, layer_options, write_profile_layer
 from floatref.engine.formats import profile_of
 from floatref.files.sources import name_errors
 from floatref.measures.ride.segment_measures import RideLimits

@@ -14,7 +14,6 @@ from floatref.measures import (
     IriSettings,
     Waveband,
     bumps_and_dips,
-    half_car_roughness_index,
     hpms_sections,
     iri,
     join_profile_indices,
@@ -33,7 +32,7 @@ from floatref.measures.roughness.roughness_profile import (
     TENTH_OF_A_MILE_M,
 )
 from floatref.measures.valid_segments import segment_iris
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import release
 from floatref.values.profile import Profile, ProfileTrack
 
 OF_ONE_PATH: dict[str, float | None] = dict.fromkeys(
@@ -82,30 +81,18 @@ class RoughnessLimits:
                 raise InputError(f"{name} is {value}; give a finite number above zero")
 
 
-@dataclass(frozen=True, eq=False)
-class Lane:
-    """The wheel paths of a lane, one or two, and which points of their mean are valid."""
+def tracks_of_lane(profile: Profile, names: Sequence[str] | None) -> tuple[ProfileTrack, ...]:
+    """Return the wheel paths ``names`` of ``profile``, or all it has, of which a lane has 1 or 2.
 
-    tracks: tuple[ProfileTrack, ...]
-    elevation: FloatArray
-    valid: BoolArray
-
-    @classmethod
-    def of(cls, profile: Profile, names: Sequence[str] | None) -> "Lane":
-        """Return the lane of ``profile`` that has the wheel paths ``names``, or all it has.
-
-        Raises InputError for a path that is missing, one that is given twice, or more than two.
-        """
-        tracks = tuple(map(profile.track, names)) if names else profile.tracks
-        if len(tracks) > 2 or len({track.name for track in tracks}) < len(tracks):
-            known = ", ".join(track.name for track in profile.tracks)
-            raise InputError(
-                f"a lane has two different wheel paths, the profile {known}; "
-                "give --tracks LEFT RIGHT"
-            )
-        first, last = tracks[0], tracks[-1]
-        mean = mean_path(first.elevation, last.elevation, profile.interval_m)
-        return cls(tracks, mean, first.valid & last.valid)
+    Raises InputError for a path that is missing, one that is given twice, or more than two.
+    """
+    tracks = tuple(map(profile.track, names)) if names else profile.tracks
+    if len(tracks) > 2 or len({track.name for track in tracks}) < len(tracks):
+        known = ", ".join(track.name for track in profile.tracks)
+        raise InputError(
+            f"a lane has two different wheel paths, the profile {known}; give --tracks LEFT RIGHT"
+        )
+    return tracks
 
 
 def roughness_report(
@@ -115,12 +102,12 @@ def roughness_report(
 
     ``names`` are the two wheel paths of the lane. Raises InputError as the measures do.
     """
-    lane = Lane.of(profile, names)
-    tracks = [_describe_track(track, profile, limits) for track in lane.tracks]
+    lane = tracks_of_lane(profile, names)
+    tracks = [_describe_track(track, profile, limits) for track in lane]
     sections = hpms_sections(
-        [track.elevation for track in lane.tracks],
+        [track.elevation for track in lane],
         profile.interval_m,
-        [track.valid for track in lane.tracks],
+        [track.valid for track in lane],
         profile.start_m,
         limits.section_m,
     )
@@ -130,6 +117,7 @@ def roughness_report(
         "lane": _describe_lane(lane, tracks, profile, limits),
         "sections": [_describe_section(section, lane) for section in sections],
         "section_length_shares": dict(rated_shares(sections)),
+        "section_length_shares_of_valid": dict(rated_shares(sections, of_valid=True)),
     }
 
 
@@ -161,7 +149,7 @@ def _describe_track(
             valid=track.valid,
         )
         energies = [waveband_energy(z, interval, band, track.valid) for band in limits.bands]
-        return {
+        described = {
             "name": track.name,
             "valid_share": float(np.mean(track.valid)),
             "iri_m_per_km": iri(z, interval),
@@ -171,6 +159,9 @@ def _describe_track(
             "localized_roughness": [asdict(area) for area in areas],
             "wavebands": [asdict(energy) for energy in energies],
         }
+    # What was read of its file would stay in memory beside the next wheel path.
+    release(z)
+    return described
 
 
 def _of_valid(name: str, track: ProfileTrack, interval_m: float) -> dict[str, float]:
@@ -180,35 +171,42 @@ def _of_valid(name: str, track: ProfileTrack, interval_m: float) -> dict[str, fl
 
 
 def _describe_lane(
-    lane: Lane, tracks: list[dict[str, Any]], profile: Profile, limits: RoughnessLimits
+    lane: Sequence[ProfileTrack],
+    tracks: list[dict[str, Any]],
+    profile: Profile,
+    limits: RoughnessLimits,
 ) -> dict[str, Any]:
     """Return the figures of the lane; None for those that need two wheel paths and have one."""
+    interval, first, last = profile.interval_m, lane[0], lane[-1]
+    valid = first.valid & last.valid
+    mean = ProfileTrack.of("mean", mean_path(first.elevation, last.elevation, interval), valid)
     places = bumps_and_dips(
-        lane.elevation,
-        profile.interval_m,
+        mean.elevation,
+        interval,
         limits.deviation_m,
         start_m=profile.start_m,
-        valid=lane.valid,
+        valid=valid,
     )
     return {
-        "tracks": [track.name for track in lane.tracks],
-        "valid_share": float(np.mean(lane.valid)),
-        **(OF_ONE_PATH if len(tracks) == 1 else _of_two_paths(lane, tracks, profile.interval_m)),
+        "tracks": [track.name for track in lane],
+        "valid_share": float(np.mean(valid)),
+        **(OF_ONE_PATH if len(tracks) == 1 else _of_two_paths(mean, tracks, interval)),
         "bumps_and_dips": [asdict(place) for place in places],
     }
 
 
 def _of_two_paths(
-    lane: Lane, tracks: list[dict[str, Any]], interval_m: float
+    mean: ProfileTrack, tracks: list[dict[str, Any]], interval_m: float
 ) -> dict[str, float | None]:
-    """Return MRI, HRI and Ride Number of two wheel paths; ``tracks`` are their own figures."""
+    """Return MRI, HRI and Ride Number of two wheel paths; ``tracks`` are their own figures.
+
+    ``mean`` is the mean of both, whose IRI is the HRI.
+    """
     left, right = tracks
-    one, other = (track.elevation for track in lane.tracks)
-    mean = ProfileTrack.of("mean", lane.elevation, lane.valid)
     of_valid = (track["iri_of_valid_m_per_km"] for track in tracks)
     values = (
         mean_roughness_index(left["iri_m_per_km"], right["iri_m_per_km"]),
-        half_car_roughness_index(one, other, interval_m),
+        iri(mean.elevation, interval_m),
         ride_number(join_profile_indices(left["ride_profile_index"], right["ride_profile_index"])),
         mean_roughness_index(*of_valid),
     )
@@ -216,9 +214,13 @@ def _of_two_paths(
     return {**dict(zip(OF_ONE_PATH, values, strict=False)), **half_car}
 
 
-def _describe_section(section: HpmsSection, lane: Lane) -> dict[str, Any]:
+def _describe_section(section: HpmsSection, lane: Sequence[ProfileTrack]) -> dict[str, Any]:
     """Return the record of one section, its IRIs by wheel path."""
-    names = (track.name for track in lane.tracks)
-    return asdict(section) | {
-        "iri_m_per_km": dict(zip(names, section.iri_m_per_km, strict=True)),
+    by_path = {
+        name: dict(zip((track.name for track in lane), values, strict=True))
+        for name, values in (
+            ("iri_m_per_km", section.iri_m_per_km),
+            ("iri_of_valid_m_per_km", section.iri_of_valid_m_per_km),
+        )
     }
+    return asdict(section) | by_path

@@ -47,7 +47,8 @@ def print_tables(report: Mapping[str, Any]) -> None:
     of = f"Bumps and dips of {' and '.join(lane['tracks'])}"
     print_areas(of, ("kind", *AREA, "deviation mm", PERCENT_OF_VALID), places)
     _print_wavebands(tracks)
-    _print_sections(report["sections"], report["section_length_shares"])
+    _print_sections(report["sections"])
+    _print_rated_length(report)
     explain_mark(
         lane["valid_share"] < 1.0, "all figures but those of valid points have the others too"
     )
@@ -107,8 +108,8 @@ def _print_wavebands(tracks: Records) -> None:
     print_table("Wavebands", columns, rows)
 
 
-def _print_sections(sections: Records, shares: Mapping[str, float]) -> None:
-    """Print every section and the shares of the length by rating."""
+def _print_sections(sections: Records) -> None:
+    """Print every section, its rating, and beside it that of its valid points."""
     rows = [
         [
             marked(number(section["start_m"], 2), section["valid_share"] < 1.0),
@@ -117,6 +118,8 @@ def _print_sections(sections: Records, shares: Mapping[str, float]) -> None:
             number(section["mean_m_per_km"]),
             number(in_per_mi(section["mean_m_per_km"]), 1),
             section["rating"] or "–",
+            number(section["mean_of_valid_m_per_km"]),
+            section["rating_of_valid"] or "–",
             percent(section["valid_share"]),
         ]
         for section in sections
@@ -125,12 +128,20 @@ def _print_sections(sections: Records, shares: Mapping[str, float]) -> None:
     columns = (
         *("start m", "length m"),
         *(f"{name} m/km" for name in paths),
-        *("mean m/km", "in/mi", "rating", PERCENT_OF_VALID),
+        *("mean m/km", "in/mi", "rating", "of valid m/km", "of valid", PERCENT_OF_VALID),
     )
     print_table("Sections", columns, rows)
-    some = any(section["valid_share"] < 1.0 for section in sections)
+
+
+def _print_rated_length(report: Mapping[str, Any]) -> None:
+    """Print the shares of the length by rating, of all points and of valid ones."""
+    some = any(section["valid_share"] < 1.0 for section in report["sections"])
+    every, valid = report["section_length_shares"], report["section_length_shares_of_valid"]
     print_table(
         marked("Rated length", some),
-        ("rating", "length %"),
-        [[rating, number(100.0 * part, 1)] for rating, part in shares.items()],
+        ("rating", "length %", "of valid %"),
+        [
+            [rating, *(number(100.0 * part[rating], 1) for part in (every, valid))]
+            for rating in every
+        ],
     )

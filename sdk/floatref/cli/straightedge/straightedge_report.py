@@ -69,18 +69,18 @@ def _describe_track(
     """Return what both machines measure on one wheel path."""
     z, interval, start = track.elevation, profile.interval_m, profile.start_m
     with name_errors(f"track {track.name}"):
-        result = rolling_straightedge(
-            z, interval, edge.length_m, edge.tolerance_m, start, track.valid
+        result = asdict(
+            rolling_straightedge(z, interval, edge.length_m, edge.tolerance_m, start, track.valid)
         )
-        if not np.isfinite(result.largest_m):
+        if not np.isfinite(result["largest_m"]):
             raise InputError(
-                f"the straightedge of {result.length_m:g} m has no place on the measured "
+                f"the straightedge of {result['length_m']:g} m has no place on the measured "
                 f"{(np.count_nonzero(np.isfinite(z)) - 1) * interval:g} m; give a longer profile"
             )
         return {
             "name": track.name,
             "valid_share": float(np.mean(track.valid)),
-            "straightedge": asdict(result),
+            "straightedge": result,
             "profilograph": _describe_trace(track, profile, machine, rules),
         }
 

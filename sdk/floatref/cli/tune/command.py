@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     help="Profile of the road of all runs, on the same axis of distance.",
 )
 @click.option(
+    "-o",
     "--out",
     required=True,
     type=click.Path(path_type=Path),

@@ -46,7 +46,7 @@ def _why_no_reader(source: Path) -> str:
     if has_profile_form(source):
         return (
             "is a profile, no recording; give the recording that it was made from; floatref iri, "
-            "compare, view and convert read profiles"
+            "roughness, straightedge, compare, view, plot and convert read profiles"
         )
     names = ", ".join(plugins().adapters())
     return f"no adapter recognises it; give --adapter, one of {names}"

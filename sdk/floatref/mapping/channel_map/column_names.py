@@ -2,6 +2,8 @@
 
 import re
 from collections.abc import Iterator, Sequence
+from pathlib import Path
+from shlex import quote
 
 from floatref.errors import InputError, one_line
 from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap
@@ -74,17 +76,18 @@ TRACK = re.compile(
 LONGEST_TRACK = 48
 
 
-def map_of_ours(native: NativeFile) -> ChannelMap:
+def map_of_ours(native: NativeFile, source: Path) -> ChannelMap:
     """Return the map of ``native``, whose columns are `<channel>` or `<track>.<channel>`.
 
     A column without a unit is in that of the channel. Raises InputError if no column has such a
-    name, and if two mean the same.
+    name, with the command that drafts a map of the file ``source``, and if two mean the same.
     """
     channels = tuple(_entries(native))
     if not channels:
         raise InputError(
             "no channel of it has a name of floatref's; draft a channel map with "
-            "`floatref channels FILE --draft-map`, complete it, and give it with --map"
+            f"`floatref channels {quote(str(source))} --draft-map`, complete it, and give it with "
+            "--map"
         )
     seen: set[tuple[str, str | None]] = set()
     for entry in channels:

@@ -9,7 +9,7 @@ from floatref.errors import InputError
 from floatref.files.document import show
 from floatref.files.recording_directory import setup_of
 from floatref.files.schema import enforce
-from floatref.files.sources import name_errors
+from floatref.files.sources import name_errors, open_bytes
 from floatref.files.toml_document import read_toml
 from floatref.mapping.channel_map.clock_entries import clocks_of
 from floatref.mapping.channel_map.entries import SOURCE, ChannelEntry, ChannelMap, FileEntry
@@ -53,6 +53,8 @@ def quantity_of(channel: str, axis: str | None) -> tuple[str, int]:
     return channel, sign
 
 
+COMMENTED = re.compile(rb"^[ \t]*#[ \t]*\[\[[ \t]*channels[ \t]*\]\]", re.MULTILINE)
+"""Head of the entry of a channel, as a comment."""
 FORMAT = "floatref-map/1"
 SCHEMA = "floatref-map-1"
 
@@ -66,6 +68,8 @@ def read_map(path: Path) -> ChannelMap:
     """
     path = Path(path)
     document = read_toml(path, "channel map")
+    if "channels" not in document:
+        _check_for_comments(path)
     enforce(document, SCHEMA, path)
     with name_errors(path):
         files = _files(document, path)
@@ -83,6 +87,18 @@ def read_map(path: Path) -> ChannelMap:
             source=_file(document.get("source", {}), path),
             place=path,
             **document.get("device", {}),
+        )
+
+
+def _check_for_comments(path: Path) -> None:
+    """Raise InputError for a map without a channel in which there are some as comments."""
+    with open_bytes(path) as stream:
+        count = len(COMMENTED.findall(stream.read()))
+    if count:
+        raise InputError(
+            f"{path}: its channels, {count}, are all comments, as in a draft from names that say "
+            "too little; take away the # before every line of those that you have, and complete "
+            "them"
         )
 
 

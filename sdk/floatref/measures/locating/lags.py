@@ -120,10 +120,31 @@ def gain(reference: Slope, run: Slope, line: Line, sign: float = 1.0) -> float:
     Windows that disagree are left out. NaN if no window agrees.
     """
     agreeing = window_lags(reference, run, line, sign).correlation >= AGREES
-    counted = np.repeat(agreeing, round(WINDOW_M / STEP_M))[: reference.values.size]
-    places = line.run_at(reference.distance_m[: counted.size][counted])
-    known = np.interp(places, run.distance_m, run.measured.astype(np.float64), 0.0, 0.0) > 0.999
-    q = np.interp(places, run.distance_m, run.values, 0.0, 0.0)[known]
-    p = reference.values[: counted.size][counted][known]
+    counted = np.zeros(reference.values.size, dtype=np.bool_)
+    per_window = np.repeat(agreeing, round(WINDOW_M / STEP_M))[: counted.size]
+    counted[: per_window.size] = per_window
+    p, q = _in_common(reference, run, line, counted)
     energy = float(np.square(p).sum())
     return float((p * q).sum()) / energy if energy > 0 else math.nan
+
+
+def common_score(reference: Slope, run: Slope, line: Line, whole_m: float) -> float:
+    """Return the correlation over all points that both measured, ``run`` laid along ``line``.
+
+    It is below zero for heights upside down. What is shorter than ``whole_m`` counts by the root
+    of its share of that, as in `score_places`: over a few metres chance reaches any correlation.
+    """
+    p, q = _in_common(reference, run, line, reference.measured)
+    energy = float(np.square(p).sum() * np.square(q).sum())
+    share = min(STEP_M * p.size / whole_m, 1.0)
+    return math.sqrt(share / energy) * float((p * q).sum()) if energy > 0 else 0.0
+
+
+def _in_common(
+    reference: Slope, run: Slope, line: Line, counted: BoolArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return both slopes where ``reference`` is ``counted`` and ``run`` has measured."""
+    places = line.run_at(reference.distance_m[counted])
+    known = np.interp(places, run.distance_m, run.measured.astype(np.float64), 0.0, 0.0) > 0.999
+    q = np.interp(places, run.distance_m, run.values, 0.0, 0.0)[known]
+    return reference.values[counted][known], q

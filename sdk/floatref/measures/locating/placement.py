@@ -88,8 +88,8 @@ def _track(track: ProfileTrack, name: str, placement: Placement) -> ProfileTrack
 
 
 def _scale(values: FloatArray, factor: float) -> FloatArray:
-    """Return ``values`` times ``factor``, the same numbers where it is one."""
-    return np.array(values) if factor == 1.0 else values * factor
+    """Return ``values`` times ``factor``, the same where it is one."""
+    return np.ascontiguousarray(values) if factor == 1.0 else values * factor
 
 
 COVERED_M = 0.5

@@ -8,14 +8,11 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures.locating.placement import Placement
-from floatref.measures.locating.placing import place
+from floatref.measures.locating.placing import SURE, place
 from floatref.measures.locating.profile_units import METRE
-from floatref.measures.roughness.agreement import on_common_grid
-from floatref.measures.roughness.wavebands import agreement
+from floatref.measures.roughness.agreement import Agreement, cross_correlation
+from floatref.measures.roughness.wavebands import PathSignals
 from floatref.values.profile import Profile
-
-SURE = 0.5
-"""Least correlation over all that both have in common, from which on a place is sure."""
 
 
 @dataclass(frozen=True)
@@ -95,6 +92,15 @@ class _Best(NamedTuple):
     correlation: float
 
 
+def _agree_valid(
+    reference: Profile, profile: Profile, name: str, band: str, sign: float
+) -> Agreement:
+    """Return the agreement in ``band`` of the points of a wheel path that are valid in both."""
+    signals = PathSignals.of(reference, profile, name, band, of_valid=True)
+    turned = np.multiply(signals.profile, sign, out=signals.profile)
+    return cross_correlation(signals.reference, turned, signals.interval_m)
+
+
 def _refine(reference: Profile, profile: Profile, shift_m: float, sign: float) -> _Best:
     """Return the shift within ±1 m of ``shift_m`` at which valid points agree best, to a sample.
 
@@ -103,14 +109,10 @@ def _refine(reference: Profile, profile: Profile, shift_m: float, sign: float) -
     moved = replace(profile, start_m=profile.start_m - shift_m)
     offsets, correlations = [], []
     try:
-        expected, found = on_common_grid(reference, moved)
-        for track in expected.tracks:
-            other = found.track(track.name)
-            valid = track.valid & other.valid
-            p = np.where(valid, track.elevation, np.nan)
-            q = np.where(valid, sign * other.elevation, np.nan)
-            offsets.append(agreement(p, q, expected.interval_m).offset_m)
-            correlations.append(agreement(p, q, expected.interval_m, "medium").correlation)
+        for name in reference:
+            offsets.append(_agree_valid(reference, moved, name, "iri", sign).offset_m)
+            best = _agree_valid(reference, moved, name, "medium", sign)
+            correlations.append(best.correlation)
     except InputError:
         return _Best(shift_m, math.nan)
     return _Best(round(shift_m + float(np.median(offsets)), 3), max(correlations))

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.measures.roughness.gaps import bridge
 from floatref.measures.roughness.wavebands import waveband_slope
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.profile import ProfileTrack
 
 STEP_M = 0.25
@@ -52,22 +53,25 @@ def slope_of(
 ) -> Slope | None:
     """Return the slope of ``track``, whose point 0 lies at ``start_m``; None without a valid point.
 
-    Elevation may be in any unit: its median is taken away first.
+    Elevation may be in any unit: its mean is taken away first, and points that are not usable are
+    bridged.
     """
     usable = usable_points(track, interval_m)
     if np.count_nonzero(usable) < 2 or interval_m >= 2.0:
         return None
-    points = np.flatnonzero(usable)
-    cut = slice(int(points[0]), int(points[-1]) + 1)
-    z = np.where(usable, track.elevation, np.nan)[cut]
-    rise, factor = _within_reach(z)
+    cut = slice(int(usable.argmax()), usable.size - int(usable[::-1].argmax()))
+    z, factor = _within_reach(bridge(track.elevation[cut], ~usable[cut]))
+    release(track.elevation)
     try:
-        slope = factor * waveband_slope(rise, interval_m, "medium")
+        slope = waveband_slope(z, interval_m, "medium")
     except InputError:
         return None
-    at = start_m + interval_m * (cut.start + 0.5 + np.arange(slope.size, dtype=np.float64))
+    del z
+    slope *= factor
     known = usable[cut][:-1] & usable[cut][1:]
-    return _on_steps(at, np.where(known, slope, 0.0), known, clipped)
+    slope[~known] = 0.0
+    begin = start_m + interval_m * (cut.start + 0.5)
+    return _on_steps(begin, interval_m, slope, known, clipped)
 
 
 def usable_points(track: ProfileTrack, interval_m: float) -> BoolArray:
@@ -78,18 +82,26 @@ def usable_points(track: ProfileTrack, interval_m: float) -> BoolArray:
 
 
 def _within_reach(z: FloatArray) -> tuple[FloatArray, float]:
-    """Return ``z`` about its median and less by a factor, so that no filter refuses it."""
-    rise = z - np.nanmedian(z)
-    factor = max(float(np.nanmax(np.abs(rise))) / HIGHEST, 1.0)
-    return np.asarray(rise / factor), factor
+    """Return ``z`` about its mean and less by a factor, so that no filter refuses it."""
+    rise = z - z.mean()
+    factor = max(float(rise.max()) / HIGHEST, -float(rise.min()) / HIGHEST, 1.0)
+    rise /= factor
+    return rise, factor
 
 
-def _on_steps(at: FloatArray, slope: FloatArray, known: BoolArray, clipped: bool) -> Slope:
-    """Return ``slope`` at whole steps, linearly between its points ``at``."""
-    first = math.ceil(at[0] / STEP_M)
-    steps = STEP_M * np.arange(first, math.floor(at[-1] / STEP_M) + 1)
-    measured = np.interp(steps, at, known.astype(np.float64)) > 0.999
-    values = np.where(measured, np.interp(steps, at, slope), 0.0)
+def _on_steps(
+    begin_m: float, interval_m: float, slope: FloatArray, known: BoolArray, clipped: bool
+) -> Slope:
+    """Return ``slope``, whose value 0 lies at ``begin_m``, linearly at whole steps."""
+    end_m = begin_m + interval_m * (slope.size - 1)
+    first = math.ceil(begin_m / STEP_M)
+    steps = STEP_M * np.arange(first, math.floor(end_m / STEP_M) + 1)
+    place = np.clip((steps - begin_m) / interval_m, 0.0, slope.size - 1.0)
+    low = np.floor(place).astype(np.int64)
+    high, part = np.minimum(low + 1, slope.size - 1), place - low
+    measured = np.where(part < 0.999, known[low], True) & np.where(part > 0.001, known[high], True)
+    between = slope[low] + part * (slope[high] - slope[low])
+    values = np.where(measured, between, 0.0)
     if clipped and measured.any():
         limit = CLIPPED_AT * float(np.quantile(np.abs(values[measured]), 0.9))
         values = np.clip(values, -limit, limit)

@@ -6,6 +6,7 @@ average, or a straightedge on two wheels.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +20,8 @@ from floatref.measures.roughness.areas import (
     valid_throughout,
 )
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, release
+from floatref.values.scanning import chunks
 
 SIGNS = (("bump", 1.0), ("dip", -1.0))
 
@@ -62,7 +64,7 @@ class Deviation:
         found = [
             self._describe(kind, area)
             for kind, sign in SIGNS
-            for area in list_areas(sign * self.values, limit_m)
+            for area in list_areas(self.values, limit_m, sign)
         ]
         return tuple(sorted(found, key=lambda each: each.start_m))
 
@@ -92,12 +94,16 @@ def deviation_from_line(
     Gaps are bridged; NaN where the window is not inside the measured stretch, and in gaps. Without
     ``valid``, finite points are valid. Raises InputError for elevations that cannot be used.
     """
-    stretch, rise = bridged_rise(elevation, interval_m)
-    sound = sound_points(valid, elevation, half, half)
+    stretch, road = bridged_stretch(elevation, interval_m)
     values = np.full(np.size(elevation), np.nan)
-    if rise.size > 2 * half:
-        above = rise[half:-half] - line_of(rise, half)
-        values = place_inside(above, elevation, stretch, half)
+
+    def above_line(part: FloatArray) -> FloatArray:
+        rise = part - road[0]
+        return np.asarray(rise[half:-half] - line_of(rise, half))
+
+    in_pieces(above_line, road, Window(half, half), values[stretch])
+    clear_gaps(values, elevation)
+    sound = sound_points(valid, elevation, half, half)
     return Deviation(values, sound, interval_m, start_m)
 
 
@@ -112,28 +118,45 @@ def half_count(length_m: float, interval_m: float, name: str) -> int:
     return max(round(length_m / 2.0 / interval_m), 1)
 
 
-def bridged_rise(elevation: FloatArray, interval_m: float) -> tuple[slice, FloatArray]:
-    """Return the measured stretch of ``elevation`` and its height above its first point, in m.
+def bridged_stretch(elevation: FloatArray, interval_m: float) -> tuple[slice, FloatArray]:
+    """Return the measured stretch of ``elevation``, and its elevations in m with gaps bridged.
 
-    Gaps inside are bridged. Raises InputError for elevations that cannot be used.
+    Raises InputError for elevations that cannot be used.
     """
     values = check_elevation(elevation, interval_m)
     stretch = measured_stretch(values)
-    return stretch, bridge(values[stretch]) - values[stretch.start]
+    return stretch, bridge(values[stretch])
 
 
-def place_inside(
-    inner: FloatArray, elevation: FloatArray, stretch: slice, before: int
-) -> FloatArray:
-    """Return ``inner`` at its points of ``elevation``, NaN elsewhere and in gaps.
+class Window(NamedTuple):
+    """The points before and behind one from which its value is made, 0 or more of each."""
 
-    Value 0 belongs to the point ``before`` points behind the start of ``stretch``.
+    before: int
+    behind: int
+
+
+def in_pieces(
+    value_of: Callable[[FloatArray], FloatArray],
+    road: FloatArray,
+    window: Window,
+    out: FloatArray,
+) -> None:
+    """Write the value of every point of ``road`` whose window is inside it to ``out``.
+
+    ``value_of`` gets a piece of ``road`` and returns the values of its points but those that have
+    no whole window in it. A long road then takes no more memory than ``out``, of as many points.
     """
-    placed = np.full(np.size(elevation), np.nan)
-    first = stretch.start + before
-    placed[first : first + inner.size] = inner
-    placed[~np.isfinite(elevation)] = np.nan
-    return placed
+    needed = window.before + window.behind
+    for at, part in chunks(road, needed):
+        if part.size > needed:
+            begin = at + window.before
+            out[begin : begin + part.size - needed] = value_of(part)
+
+
+def clear_gaps(values: FloatArray, elevation: FloatArray) -> None:
+    """Write NaN to ``values`` where ``elevation``, of as many points, has no finite number."""
+    for at, part in chunks(np.asarray(elevation, dtype=np.float64)):
+        values[at : at + part.size][~np.isfinite(part)] = np.nan
 
 
 def sound_points(
@@ -143,5 +166,8 @@ def sound_points(
 
     Without ``valid``, finite points are valid. Raises InputError unless it has a value for each.
     """
-    points = valid_points(valid, np.asarray(elevation, dtype=np.float64))
+    values = np.asarray(elevation, dtype=np.float64)
+    points = valid_points(valid, values)
+    # What was read of a file would stay in memory.
+    release(values)
     return valid_throughout(points, before, after)

@@ -19,6 +19,7 @@ from floatref.measures.roughness.areas import list_areas, share
 from floatref.measures.roughness.roughness_index import M_PER_KM, segment_edges
 from floatref.measures.roughness.roughness_profile import TENTH_OF_A_MILE_M
 from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.scanning import CHUNK
 
 
 @dataclass(frozen=True)
@@ -180,6 +181,18 @@ def grind_heights(trace: FloatArray, span: int, limit: float) -> FloatArray:
     lowest of t_k … t_{k+span−m}), m from 0 to ``span``: both ends of the base are at most ``span``
     values apart. NaN counts for nothing.
     """
+    heights = np.zeros(trace.size)
+    for at in range(0, trace.size, CHUNK):
+        low, end = max(at - span, 0), min(at + CHUNK, trace.size)
+        part = _grind_heights(trace[low : end + span], span, limit)[at - low : end - low]
+        # Zeros that are never written take no memory.
+        high = np.flatnonzero(part)
+        heights[at + high] = part[high]
+    return heights
+
+
+def _grind_heights(trace: FloatArray, span: int, limit: float) -> FloatArray:
+    """Return what `grind_heights` does, of the values that have ``span`` others on both sides."""
     known = np.where(np.isfinite(trace), trace, np.inf)
     ahead, behind = _lowest_ahead(known, span), _lowest_ahead(known[::-1], span)[::-1]
     # No base is lower than the higher of the lowest values on both sides.

@@ -14,8 +14,14 @@ from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
 from floatref.kernels.cut_off import SIXTH_ORDER
-from floatref.measures.ride.deviation_areas import bridged_rise, place_inside, sound_points
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.measures.ride.deviation_areas import (
+    Window,
+    bridged_stretch,
+    clear_gaps,
+    in_pieces,
+    sound_points,
+)
+from floatref.values.arrays import BoolArray, FloatArray, release
 
 HALF_WHEELBASE_M = 3.81
 """Half of the wheelbase of 25 ft, in m."""
@@ -78,14 +84,23 @@ def profilograph_trace(
     kinematic model that ASTM E2955 names, by its geometry; the low-pass is LPF_B3x2 of appendix
     A.1, (A.21).
     """
-    stretch, rise = bridged_rise(elevation, interval_m)
-    road = _smooth(rise, interval_m, machine)
+    stretch, road = bridged_stretch(elevation, interval_m)
+    smooth = _smooth(road - road[0], interval_m, machine)
+    # What was read of a file, or bridged, would stay in memory.
+    release(road)
+    del road
     offsets = machine.offsets(interval_m)
-    first, end = max(0, -min(offsets)), road.size - max(0, max(offsets))
-    if end <= first:
-        return np.full(np.size(elevation), np.nan)
-    frame = sum(road[first + n : end + n] for n in offsets) / len(offsets)
-    return place_inside(road[first:end] - frame, elevation, stretch, first)
+    window = Window(max(0, -min(offsets)), max(0, max(offsets)))
+
+    def above_frame(part: FloatArray) -> FloatArray:
+        end = part.size - window.behind
+        frame = sum(part[window.before + n : end + n] for n in offsets) / len(offsets)
+        return np.asarray(part[window.before : end] - frame)
+
+    trace = np.full(np.size(elevation), np.nan)
+    in_pieces(above_frame, smooth, window, trace[stretch])
+    clear_gaps(trace, elevation)
+    return trace
 
 
 def valid_frames(
@@ -104,9 +119,9 @@ def valid_frames(
 
 
 def _smooth(rise: FloatArray, interval_m: float, machine: Profilograph) -> FloatArray:
-    """Return ``rise`` in m through the low-pass of ``machine``, if that can act."""
+    """Return ``rise`` in m through the low-pass of ``machine``, if that can act, in its place."""
     from floatref.measures.roughness.zero_phase import low_pass_b3x2
 
     if not machine.is_filtered(interval_m):
         return rise
-    return low_pass_b3x2(rise, interval_m, machine.low_pass_m * SIXTH_ORDER)
+    return low_pass_b3x2(rise, interval_m, machine.low_pass_m * SIXTH_ORDER, out=rise)

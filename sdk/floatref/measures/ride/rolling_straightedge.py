@@ -1,5 +1,6 @@
 """A straightedge on two wheels that rolls along a wheel path and measures in its middle."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ from floatref.measures.ride.deviation_areas import (
 )
 from floatref.measures.roughness.areas import share
 from floatref.values.arrays import FloatArray
+from floatref.values.scanning import chunks
 
 TEN_FEET_M = 3.048
 """Length of a straightedge in m (10 ft)."""
@@ -87,8 +89,17 @@ def rolling_straightedge(
     rolled = roll_straightedge(elevation, interval_m, length_m, start_m, valid)
     areas = rolled.list_areas(tolerance_m)
     measured = np.isfinite(rolled.values)
-    sizes = np.abs(rolled.values[measured])
-    largest = float(sizes.max()) if sizes.size else float("nan")
-    shares = (share(sizes > tolerance_m), share(rolled.sound[measured]))
+    largest = max((float(np.abs(part).max()) for part in _measured(rolled.values)), default=np.nan)
+    beyond = sum(np.count_nonzero(np.abs(part) > tolerance_m) for part in _measured(rolled.values))
+    count = np.count_nonzero(measured)
+    shares = (beyond / count if count else np.nan, share(rolled.sound[measured]))
     used_m = 2 * half_count(length_m, interval_m, LENGTH) * interval_m
     return StraightedgeResult(used_m, largest, *shares, areas)
+
+
+def _measured(values: FloatArray) -> Iterator[FloatArray]:
+    """Yield the finite ``values`` of every piece that has some: all sizes would take their room."""
+    for _, part in chunks(values):
+        finite = part[np.isfinite(part)]
+        if finite.size:
+            yield finite

@@ -15,6 +15,7 @@ from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import RIDE_NUMBER_CAR
 from floatref.measures.roughness.roughness_index import M_PER_KM, STANDARD, iri, iri_trace
 from floatref.values.arrays import FloatArray
+from floatref.values.scanning import chunks
 
 HIGHEST_RIDE_NUMBER = 5.0
 """Ride Number of a road without any roughness."""
@@ -32,7 +33,10 @@ def mean_path(left: FloatArray, right: FloatArray, interval_m: float) -> FloatAr
         raise InputError(
             f"wheel paths of {one.size} and {other.size} points; cut them to the same points"
         )
-    return np.asarray((one + other) / 2.0)
+    mean = np.empty(one.size)
+    for (at, part), (_, beside) in zip(chunks(one), chunks(other), strict=True):
+        mean[at : at + part.size] = (part + beside) / 2.0
+    return mean
 
 
 def half_car_roughness_index(
@@ -57,8 +61,12 @@ def ride_profile_index(
     Source: M. W. Sayers and S. M. Karamihas, The Little Book of Profiling, 1998, whose algorithm is
     that of ASTM E1489; the constants are in Karamihas 2021, 2.1.4.
     """
-    trace = iri_trace(elevation, interval_m, settings, RIDE_NUMBER_CAR) / M_PER_KM
-    return float(np.sqrt(np.nanmean(np.square(trace))))
+    trace = iri_trace(elevation, interval_m, settings, RIDE_NUMBER_CAR)
+    total, count = 0.0, 0
+    for _, part in chunks(trace):
+        known = part[np.isfinite(part)] / M_PER_KM
+        total, count = total + float(np.square(known).sum()), count + known.size
+    return math.sqrt(total / count)
 
 
 def join_profile_indices(left: float, right: float) -> float:

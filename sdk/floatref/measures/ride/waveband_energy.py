@@ -4,6 +4,7 @@ The bands and their filters are those of 2.1.5.2 of Karamihas 2021: HPF_B3x2 at 
 wavelength, LPF_B3x2 at the shortest, both without phase shift. At either limit half is left.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,8 @@ from floatref.errors import InputError
 from floatref.measures.roughness.areas import share, valid_points
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.wavebands import Waveband, pass_band
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, release
+from floatref.values.scanning import chunks
 
 CONTINUED = 3
 """Longest wavelengths by which a profile is continued: of a run-in e^-3π, 1e-4, is left then."""
@@ -49,11 +51,13 @@ def waveband_elevation(elevation: FloatArray, interval_m: float, band: Waveband)
     measured = bridge(values[measured_stretch(values)])
     if measured.size < 2:
         raise InputError("1 point of the profile was measured; a band of wavelengths needs two")
-    line = np.linspace(measured[0], measured[-1], measured.size)
     margin = int(np.ceil(CONTINUED * band.long_m / interval_m))
-    # Beyond the ends the reflection in a point changes the sign of what is zero there.
-    continued = np.pad(measured - line, margin, mode="reflect", reflect_type="odd")
-    return pass_band(continued, interval_m, band)[margin : margin + measured.size]
+    count = measured.size
+    continued = _continue(measured, margin)
+    # What was read of a file, or bridged, would stay in memory.
+    release(measured)
+    del measured
+    return pass_band(continued, interval_m, band)[margin : margin + count]
 
 
 def waveband_energy(
@@ -69,11 +73,40 @@ def waveband_energy(
     `waveband_elevation`.
     """
     inside = waveband_elevation(elevation, interval_m, band)
-    slope = np.diff(inside) / interval_m
+    rms_elevation = _root_mean_square(part for _, part in chunks(inside))
+    slopes = (np.diff(part) / interval_m for _, part in chunks(inside, overlap=1))
+    rms_slope = _root_mean_square(slopes)
     points = np.asarray(elevation, dtype=np.float64)
     sound = valid_points(valid, points)[measured_stretch(points)]
-    rms_elevation, rms_slope = (float(np.sqrt(np.mean(np.square(x)))) for x in (inside, slope))
+    release(points)
     return WavebandEnergy(band.long_m, band.short_m, rms_elevation, rms_slope, share(sound))
+
+
+def _continue(measured: FloatArray, margin: int) -> FloatArray:
+    """Return ``measured`` less the line through its ends, with ``margin`` points on both sides.
+
+    Beyond the ends the reflection in a point changes the sign of what is zero there.
+    """
+    continued = np.empty(measured.size + 2 * margin)
+    rest = continued[margin : margin + measured.size]
+    step = (measured[-1] - measured[0]) / (measured.size - 1)
+    for at, part in chunks(measured):
+        line = step * np.arange(at, at + part.size) + measured[0]
+        rest[at : at + part.size] = part - line
+    rest[-1] = 0.0
+    # Of a long road the pieces next to the ends are all that is reflected.
+    near = rest[: margin + 1], rest[-margin - 1 :]
+    before, behind = (np.pad(part, margin, mode="reflect", reflect_type="odd") for part in near)
+    continued[:margin], continued[margin + rest.size :] = before[:margin], behind[-margin:]
+    return continued
+
+
+def _root_mean_square(parts: Iterable[FloatArray]) -> float:
+    """Return the root mean square of all values of ``parts``."""
+    total, count = 0.0, 0
+    for part in parts:
+        total, count = total + float(np.square(part).sum()), count + part.size
+    return float(np.sqrt(total / count))
 
 
 def _check_band(band: Waveband, interval_m: float) -> None:

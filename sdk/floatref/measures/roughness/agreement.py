@@ -5,16 +5,17 @@ signal scores 1 for any values beyond the overlap.
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from floatref.errors import InputError
 from floatref.measures.roughness.gaps import check_heights
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.scanning import CHUNK, chunks
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,10 @@ class Agreement:
     correlation: float
     amplitude_factor: float
     offset_m: float
+
+
+SAME_CORRELATION = 1e-12
+"""Correlations that differ by less are equal: they do by rounding."""
 
 
 class _Overlap(NamedTuple):
@@ -60,7 +65,7 @@ def cross_correlation(
         )
     overlap = _correlate(p, q, largest)
     lags = np.arange(-largest, largest + 1)
-    tied = np.flatnonzero(overlap.correlation == overlap.correlation.max())
+    tied = np.flatnonzero(overlap.correlation >= overlap.correlation.max() - SAME_CORRELATION)
     best = tied[np.argmin(np.abs(lags[tied]))]
     rho, gamma = float(overlap.correlation[best]), float(overlap.amplitude_factor[best])
     return Agreement(rho * gamma, rho, gamma, float(lags[best]) * interval_m)
@@ -78,12 +83,12 @@ def _check_signals(p: FloatArray, q: FloatArray) -> tuple[FloatArray, FloatArray
 
 def _correlate(p: FloatArray, q: FloatArray, largest: int) -> _Overlap:
     """Return correlation and amplitude factor at lags −``largest`` to ``largest``."""
-    p_centred, q_centred = p - p.mean(), q - q.mean()
-    products = _lagged_products(p_centred, q_centred, largest)
+    p_mean, q_mean = float(p.mean()), float(q.mean())
+    products = _lagged_products(p, q, (p_mean, q_mean), largest)
     counts = p.size - np.abs(np.arange(-largest, largest + 1))
-    p_sums, p_squares = (_overlap_sums(v, largest) for v in (p_centred, np.square(p_centred)))
+    p_sums, p_squares = (_overlap_sums(p, p_mean, power, largest) for power in (1, 2))
     # Seen from q the same overlaps come in the opposite order of lags.
-    q_sums, q_squares = (_overlap_sums(v, largest)[::-1] for v in (q_centred, np.square(q_centred)))
+    q_sums, q_squares = (_overlap_sums(q, q_mean, power, largest)[::-1] for power in (1, 2))
     p_sigma = _sigma(p_sums, p_squares, counts, p)
     q_sigma = _sigma(q_sums, q_squares, counts, q)
     covariance = (products - p_sums * q_sums / counts) / counts
@@ -94,26 +99,39 @@ def _correlate(p: FloatArray, q: FloatArray, largest: int) -> _Overlap:
     return _Overlap(np.clip(rho, -1.0, 1.0), gamma)
 
 
-def _lagged_products(p: FloatArray, q: FloatArray, largest: int) -> FloatArray:
+def _lagged_products(
+    p: FloatArray, q: FloatArray, means: tuple[float, float], largest: int
+) -> FloatArray:
     """Return Σ p(k)·q(k + i) over the overlap for lags i from −``largest`` to ``largest``.
 
-    The transform is only ``largest`` points longer than the signals: the wrapped part falls on lags
-    that are not needed.
+    Both are taken less their ``means``. A long signal goes in pieces of p with all points of q that
+    they meet: the transforms then take no memory to speak of.
     """
     from scipy.fft import irfft, next_fast_len, rfft
 
-    size = next_fast_len(p.size + largest, real=True)
-    spectrum = np.conj(rfft(p, size))
-    spectrum *= rfft(q, size)
-    circular = irfft(spectrum, size)
-    return np.concatenate((circular[circular.size - largest :], circular[: largest + 1]))
+    step = max(CHUNK, 2 * largest)
+    size = next_fast_len(min(step, p.size) + 2 * largest, real=True)
+    total = np.zeros(2 * largest + 1)
+    for first in range(0, p.size, step):
+        piece = p[first : first + step] - means[0]
+        # Value 0 is q's point first − L; there is nothing beyond the ends of q.
+        low, high = max(first - largest, 0), min(first + piece.size + largest, q.size)
+        met = np.zeros(piece.size + 2 * largest)
+        met[low - first + largest : high - first + largest] = q[low:high] - means[1]
+        spectrum = np.conj(rfft(piece, size))
+        spectrum *= rfft(met, size)
+        total += irfft(spectrum, size)[: total.size]
+    return total
 
 
-def _overlap_sums(values: FloatArray, largest: int) -> FloatArray:
-    """Return, per lag i from −L to L, the sum of those k for which k + i is a point as well."""
-    total = values.sum()
-    head = np.cumsum(values[:largest])
-    tail = np.cumsum(values[::-1][:largest])
+def _overlap_sums(values: FloatArray, mean: float, power: int, largest: int) -> FloatArray:
+    """Return, per lag i from −L to L, the sum of those k for which k + i is a point as well.
+
+    Summed is the ``power`` of what ``values`` differ by from ``mean``.
+    """
+    total = sum(float(np.sum((part - mean) ** power)) for _, part in chunks(values))
+    head = np.cumsum((values[:largest] - mean) ** power)
+    tail = np.cumsum((values[::-1][:largest] - mean) ** power)
     return np.concatenate((total - head[::-1], [total], total - tail))
 
 
@@ -122,7 +140,7 @@ def _sigma(
 ) -> FloatArray:
     """Return the standard deviation on each overlap, 0 where it is rounding of ``signal``."""
     variance = squares / counts - np.square(sums / counts)
-    rounding = np.square(1e-13 * np.abs(signal).max())
+    rounding = np.square(1e-13 * max(float(signal.max()), -float(signal.min())))
     return np.asarray(np.sqrt(np.where(variance > rounding, variance, 0.0)))
 
 
@@ -140,22 +158,16 @@ def on_common_grid(reference: Profile, profile: Profile) -> tuple[Profile, Profi
     """
     for track in (*reference.tracks, *profile.tracks):
         _check_heights(track)
-    step = reference.interval_m / profile.interval_m
-    first = (reference.start_m - profile.start_m) / profile.interval_m
-    index = first + step * np.arange(_size(reference), dtype=np.float64)
-    nearest = np.rint(index)
-    same = np.abs(index - nearest) < SAME_POINT
-    index[same] = nearest[same]
-    inside = np.flatnonzero((index >= 0) & (index <= _size(profile) - 1))
-    if inside.size < 2:
+    places = _Places.of(reference, profile)
+    cut = places.inside(_size(reference), _size(profile))
+    if cut.stop - cut.start < 2:
         raise InputError(
             f"the profiles do not overlap: the reference covers {_span(reference)}, "
             f"the profile {_span(profile)}"
         )
-    cut = slice(int(inside[0]), int(inside[-1]) + 1)
     start = reference.start_m + cut.start * reference.interval_m
     kept = tuple(_cut(track, cut) for track in reference.tracks)
-    moved = tuple(_interpolate(track, index[cut]) for track in profile.tracks)
+    moved = tuple(_interpolate(track, places, cut) for track in profile.tracks)
     return (
         replace(reference, tracks=kept, start_m=start),
         replace(profile, tracks=moved, start_m=start, interval_m=reference.interval_m),
@@ -186,16 +198,59 @@ def _cut(track: ProfileTrack, stretch: slice) -> ProfileTrack:
     return ProfileTrack.of(track.name, track.elevation[stretch], track.valid[stretch], sigma)
 
 
-def _interpolate(track: ProfileTrack, index: FloatArray) -> ProfileTrack:
-    """Return ``track`` at the fractional points ``index``."""
+class _Places(NamedTuple):
+    """Where the points of a reference lie in a profile, in points of that: first + step k."""
+
+    first: float
+    step: float
+
+    @classmethod
+    def of(cls, reference: Profile, profile: Profile) -> "_Places":
+        """Return the places of the points of ``reference`` in ``profile``."""
+        first = (reference.start_m - profile.start_m) / profile.interval_m
+        return cls(first, reference.interval_m / profile.interval_m)
+
+    def at(self, begin: int, end: int) -> FloatArray:
+        """Return the places of points from ``begin`` to before ``end``; same points are whole."""
+        index = self.first + self.step * np.arange(begin, end, dtype=np.float64)
+        nearest = np.rint(index)
+        return np.where(np.abs(index - nearest) < SAME_POINT, nearest, index)
+
+    def inside(self, count: int, size: int) -> slice:
+        """Return which of ``count`` points lie from the first to the last of ``size`` points."""
+        begin = self._next(-self.first / self.step, lambda place: place >= 0, count)
+        last = (size - 1 - self.first) / self.step
+        return slice(begin, self._next(last, lambda place: place > size - 1, count))
+
+    def _next(self, near: float, met: Callable[[float], bool], count: int) -> int:
+        """Return the first of ``count`` points, next to ``near``, whose place has ``met``."""
+        guess = int(min(max(math.floor(near) - 2, 0), count))
+        while guess < count and not met(float(self.at(guess, guess + 1)[0])):
+            guess += 1
+        return guess
+
+
+def _interpolate(track: ProfileTrack, places: _Places, cut: slice) -> ProfileTrack:
+    """Return ``track`` at the places of the points ``cut``; where all are its own, these."""
+    begin = float(places.at(cut.start, cut.start + 1)[0])
+    if places.step == 1.0 and begin.is_integer():
+        same = slice(int(begin), int(begin) + cut.stop - cut.start)
+        return ProfileTrack.of(track.name, track.elevation[same], track.valid[same])
+    elevation = np.empty(cut.stop - cut.start)
+    valid = np.empty(elevation.size, dtype=np.bool_)
+    for first in range(0, elevation.size, CHUNK):
+        inside = slice(first, min(first + CHUNK, elevation.size))
+        at = places.at(cut.start + inside.start, cut.start + inside.stop)
+        elevation[inside], valid[inside] = _at(track, at)
+        release(track.elevation)
+    return ProfileTrack.of(track.name, elevation, valid)
+
+
+def _at(track: ProfileTrack, index: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """Return elevation and validity of ``track`` at the fractional points ``index``."""
     low = np.floor(index).astype(np.int64)
     fraction = index - low
     high = np.where(fraction > 0, low + 1, low)
     z = track.elevation
     elevation = np.where(fraction > 0, z[low] + fraction * (z[high] - z[low]), z[low])
-    return ProfileTrack.of(track.name, elevation, _both(track.valid, low, high))
-
-
-def _both(valid: BoolArray, low: NDArray[np.int64], high: NDArray[np.int64]) -> BoolArray:
-    """Return where both neighbours are valid."""
-    return np.asarray(valid[low] & valid[high])
+    return elevation, track.valid[low] & track.valid[high]

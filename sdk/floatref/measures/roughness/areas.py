@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.scanning import CHUNK
 
 
 @dataclass(frozen=True)
@@ -23,15 +24,17 @@ class Area:
     peak: int
 
 
-def list_areas(excess: FloatArray, limit: float = 0.0) -> tuple[Area, ...]:
-    """Return every stretch of successive values of ``excess`` above ``limit``, in order.
+def list_areas(values: FloatArray, limit: float = 0.0, sign: float = 1.0) -> tuple[Area, ...]:
+    """Return every stretch of successive ``values``, times ``sign``, above ``limit``, in order.
 
-    The peak is the first of the highest values. NaN is above no limit.
+    ``sign`` is 1 or -1. The peak is the first of the highest values. NaN is above no limit.
     """
-    above = np.concatenate(([False], excess > limit, [False]))
-    edges: NDArray[np.int64] = np.flatnonzero(np.diff(above)).reshape(-1, 2)
+    # The product of all values would be as large as they are.
+    above = values > limit if sign > 0.0 else values < -limit
+    edges: NDArray[np.int64] = np.flatnonzero(np.diff(above, prepend=False, append=False))
     return tuple(
-        Area(first, end, first + int(np.argmax(excess[first:end]))) for first, end in edges.tolist()
+        Area(first, end, first + int(np.argmax(sign * values[first:end])))
+        for first, end in edges.reshape(-1, 2).tolist()
     )
 
 
@@ -55,11 +58,17 @@ def valid_throughout(valid: BoolArray, before: int, after: int) -> BoolArray:
 
     Both are counts of points, 0 or more; points beyond the ends of the profile do not count.
     """
-    invalid = np.concatenate(([0], np.cumsum(~valid)))
-    points = np.arange(valid.size)
-    first = np.clip(points - before, 0, valid.size)
-    end = np.clip(points + after + 1, 0, valid.size)
-    return np.asarray(invalid[end] == invalid[first])
+    sound = np.empty(valid.size, dtype=np.bool_)
+    for at in range(0, valid.size, CHUNK):
+        inside = slice(at, min(at + CHUNK, valid.size))
+        low = max(at - before, 0)
+        part = valid[low : inside.stop + after]
+        invalid = np.concatenate(([0], np.cumsum(~part)))
+        points = np.arange(inside.start - low, inside.stop - low)
+        first = np.clip(points - before, 0, part.size)
+        end = np.clip(points + after + 1, 0, part.size)
+        sound[inside] = invalid[end] == invalid[first]
+    return sound
 
 
 def share(valid: BoolArray) -> float:

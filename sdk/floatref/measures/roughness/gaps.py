@@ -3,7 +3,8 @@
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.scanning import first_where
 
 HIGHEST_M = 1e6
 """No road lies higher or lower than this, in m, whatever the datum."""
@@ -11,9 +12,8 @@ HIGHEST_M = 1e6
 
 def check_heights(elevation: FloatArray) -> None:
     """Raise InputError naming the first point of ``elevation``, in m, that no road reaches."""
-    beyond = np.abs(elevation) > HIGHEST_M
-    if beyond.any():
-        point = int(np.argmax(beyond))
+    point = first_where(lambda values: np.abs(values) > HIGHEST_M, elevation)
+    if point is not None:
         raise InputError(
             f"elevation of point {point} is {elevation[point]:.4g} m, beyond {HIGHEST_M:.0f} m; "
             "give elevations in m, and mark missing points as NaN"
@@ -49,10 +49,19 @@ def measured_stretch(elevation: FloatArray) -> slice:
     return slice(int(finite.argmax()), elevation.size - int(finite[::-1].argmax()))
 
 
-def bridge(elevation: FloatArray) -> FloatArray:
-    """Return ``elevation`` with every NaN between finite points on the straight line over it."""
-    finite = np.isfinite(elevation)
-    if finite.all():
+def bridge(elevation: FloatArray, missing: BoolArray | None = None) -> FloatArray:
+    """Return ``elevation`` with every ``missing`` point on the straight line over its gap.
+
+    Without ``missing`` these are the points that are not finite.
+    """
+    if missing is None:
+        missing = ~np.isfinite(elevation)
+    if not missing.any():
         return elevation
-    points = np.arange(elevation.size)
-    return np.interp(points, points[finite], elevation[finite])
+    # Only the ends of gaps matter: a line through all points takes five times their room.
+    edges = np.flatnonzero(np.diff(missing))
+    ends = np.unique(np.concatenate((edges, edges + 1)))
+    ends = ends[~missing[ends]]
+    bridged, gaps = elevation.copy(), np.flatnonzero(missing)
+    bridged[gaps] = np.interp(gaps, ends, elevation[ends])
+    return bridged

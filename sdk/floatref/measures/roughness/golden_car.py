@@ -23,14 +23,19 @@ def car_response(
     start_slope: float,
     per_step: float,
     modes: Modes,
+    states: FloatArray,
     response: FloatArray,
 ) -> None:
-    """Write the output after each of the ``elevation.size - 1`` intervals to ``response``."""
+    """Write the output after each of the first ``response.size`` intervals to ``response``.
+
+    The car goes on from ``states``, shape (4,), which it leaves as they are then. A piece of a
+    profile needs ``window`` points beyond its last interval, or the profile's end.
+    """
     (a_re, a_im, a_gain_re, a_gain_im), (b_re, b_im, b_gain_re, b_gain_im) = modes
-    a_x = a_y = b_x = b_y = 0.0
+    a_x, a_y, b_x, b_y = states
     last = elevation.size - 1
     per_window = per_step / window
-    for k in range(last):
+    for k in range(response.size):
         if k + window <= last:
             slope = (elevation[k + window] - elevation[k]) * per_window - start_slope
         else:
@@ -43,6 +48,7 @@ def car_response(
         b_y = (b_gain_im * slope + b_im * b_x) + b_re * b_y
         b_x = b_next
         response[k] = a_x + b_x
+    states[0], states[1], states[2], states[3] = a_x, a_y, b_x, b_y
 
 
 @compiled

@@ -15,7 +15,8 @@ from floatref.errors import InputError
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH, Modes, QuarterCar
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import FloatArray, release
+from floatref.values.scanning import CHUNK, chunks
 
 M_PER_KM = 1000.0
 """Slopes of 1 m/m in m/km."""
@@ -56,7 +57,11 @@ def iri_trace(
     trace = np.empty(max(np.size(elevation) - 1, 0)) if out is None else out
     trace[: run.first], trace[run.first + run.elevation.size - 1 :] = np.nan, np.nan
     measured = trace[run.first : run.first + run.elevation.size - 1]
-    car_response(run.elevation, run.window, run.start_slope, 1.0 / interval_m, run.modes, measured)
+    states = np.zeros(4)
+    # In pieces, so that a file is not in memory as a whole beside the trace.
+    for at, part in chunks(run.elevation, run.window):
+        out = measured[at : at + CHUNK]
+        car_response(part, run.window, run.start_slope, 1.0 / interval_m, run.modes, states, out)
     return trace
 
 
@@ -160,6 +165,7 @@ class _Run:
                 f"{settings.start_length_m:g} m to find the slope it starts at"
             )
         start_slope = float(measured[start] - measured[0]) / (start * interval_m)
+        release(values)
         modes = car.modes(interval_m / (settings.speed_kmh * KMH), M_PER_KM)
         return cls(stretch.start, measured, interval_m, window, start_slope, modes)
 

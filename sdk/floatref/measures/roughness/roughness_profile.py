@@ -10,7 +10,7 @@ from floatref.measures.roughness.areas import list_areas, share, valid_points, v
 from floatref.measures.roughness.gaps import check_elevation
 from floatref.measures.roughness.iri_settings import IriSettings, intervals_in
 from floatref.measures.roughness.roughness_index import STANDARD, iri_trace
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.scanning import CHUNK
 
 BASE_M = 7.62
@@ -97,7 +97,9 @@ def valid_bases(
 
     Same length as they; arguments and InputError as in `localized_roughness`.
     """
-    points = valid_points(valid, check_elevation(elevation, interval_m))
+    values = check_elevation(elevation, interval_m)
+    points = valid_points(valid, values)
+    release(values)
     window = intervals_in(base_m, interval_m)
     before = window // 2
     return valid_throughout(points, before, window - before)[:-1]

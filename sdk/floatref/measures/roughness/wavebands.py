@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -9,11 +10,13 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.kernels.cut_off import high_pass_wavelength_setting
-from floatref.measures.roughness.agreement import Agreement, cross_correlation
+from floatref.measures.roughness.agreement import Agreement, cross_correlation, on_common_grid
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
-from floatref.values.arrays import FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.display.similar_names import suggest
+from floatref.values.profile import Profile
+from floatref.values.scanning import chunks
 
 
 class Waveband(NamedTuple):
@@ -52,7 +55,6 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     filtered = np.full(values.size, np.nan)
     cutoff = high_pass_wavelength_setting(wavelength_m)
     rise = bridge(values[stretch]) - values[stretch.start]
-
     filtered[stretch] = high_pass_b3x2(rise, interval_m, cutoff)
     filtered[~np.isfinite(values)] = np.nan
     return filtered
@@ -74,10 +76,24 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
     values = check_elevation(elevation, interval_m)
     if not np.isfinite(values[[0, -1]]).all():
         raise InputError("elevation starts or ends with NaN; cut the profile to what was measured")
-    slope = np.diff(bridge(values)) / interval_m
     margin = math.ceil(limits.long_m / interval_m)
-    continued = np.pad(slope - slope.mean(), margin, mode="symmetric")
-    return pass_band(continued, interval_m, limits)[margin : margin + slope.size]
+    continued = _continue(bridge(values), interval_m, margin)
+    return pass_band(continued, interval_m, limits)[margin : margin + values.size - 1]
+
+
+def _continue(elevation: FloatArray, interval_m: float, margin: int) -> FloatArray:
+    """Return the slope of ``elevation`` less its mean, mirrored for ``margin`` at both ends."""
+    continued = np.empty(elevation.size - 1 + 2 * margin)
+    slope = continued[margin : margin + elevation.size - 1]
+    for at, part in chunks(elevation, overlap=1):
+        slope[at : at + part.size - 1] = np.diff(part) / interval_m
+    slope -= slope.mean()
+    # Of a long road the pieces next to the ends are all that is mirrored.
+    before, behind = (
+        np.pad(part, margin, mode="symmetric") for part in (slope[:margin], slope[-margin:])
+    )
+    continued[:margin], continued[margin + slope.size :] = before[:margin], behind[-margin:]
+    return continued
 
 
 def agreement(
@@ -97,34 +113,93 @@ def agreement(
     p, q = check_elevation(p, interval_m), check_elevation(q, interval_m)
     if p.shape != q.shape:
         raise InputError(f"profiles of {p.size} and {q.size} points; cut them to the same points")
-    common = _common_stretch(p, q)
-    p_band, q_band = (_filter(z[common], interval_m, band) for z in (p, q))
+    common = common_stretch(np.isfinite(p) & np.isfinite(q))
+    p_band, q_band = (band_signal(z[common], interval_m, band) for z in (p, q))
     return cross_correlation(p_band, q_band, interval_m, max_offset_m)
 
 
+class PathSignals(NamedTuple):
+    """A wheel path of a reference and of a profile through one filter, at the same points."""
+
+    reference: FloatArray
+    profile: FloatArray
+    interval_m: float
+
+    @classmethod
+    def of(
+        cls, reference: Profile, profile: Profile, name: str, band: str, of_valid: bool = False
+    ) -> "PathSignals":
+        """Return the signals in ``band`` of the wheel path ``name``, on the reference's points.
+
+        With ``of_valid`` all points that are not valid in both are bridged. An elevation is in
+        memory only until it is filtered: of an hour of road there is room for two signals, not for
+        four. Raises InputError as `on_common_grid` and the filters do.
+        """
+        one, other = (replace(each, tracks=(each.track(name),)) for each in (reference, profile))
+        expected, found = on_common_grid(one, other)
+        p, q, interval_m = expected[name].elevation, found[name].elevation, expected.interval_m
+        both = np.ones(p.size, dtype=np.bool_)
+        for track in (expected[name], found[name]):
+            both &= track.valid if of_valid else np.isfinite(track.elevation)
+            release(track.elevation)
+        del expected, found, other, track
+        common = common_stretch(both)
+        missing = ~both[common] if of_valid else None
+        del both
+        q = bridge(q[common], missing)
+        q_band = band_signal(q, interval_m, band)
+        del q
+        return cls(band_signal(bridge(p[common], missing), interval_m, band), q_band, interval_m)
+
+
+def path_agreement(
+    reference: Profile,
+    profile: Profile,
+    name: str,
+    band: str = "iri",
+    max_offset_m: float = 1.0,
+) -> Agreement:
+    """Return the `agreement` of the wheel path ``name`` of two profiles, on the reference's points.
+
+    Raises InputError as `on_common_grid` and `agreement`.
+    """
+    signals = PathSignals.of(reference, profile, name, band)
+    return cross_correlation(signals.reference, signals.profile, signals.interval_m, max_offset_m)
+
+
 def pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
-    """Return ``slope`` through HPF_B3x2 and, where it can act, LPF_B3x2."""
+    """Return ``slope``, which it overwrites, through HPF_B3x2 and, where it can act, LPF_B3x2."""
     from floatref.measures.roughness.zero_phase import high_pass_b3x2, low_pass_b3x2
 
-    passed = high_pass_b3x2(slope, interval_m, limits.long_m)
+    passed = high_pass_b3x2(slope, interval_m, limits.long_m, out=slope)
     if limits.short_m <= 2 * interval_m:
         return passed
-    return low_pass_b3x2(passed, interval_m, limits.short_m)
+    return low_pass_b3x2(passed, interval_m, limits.short_m, out=passed)
 
 
-def _filter(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
-    """Return ``elevation`` through the filter of ``band``, one value fewer than points."""
+def band_signal(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
+    """Return ``elevation`` in m through the filter of ``band``, one value fewer than points.
+
+    This is what `agreement` correlates: of a stretch that both profiles measured. Raises InputError
+    as the filters do.
+    """
     if band == "iri":
-        return iri_trace(elevation, interval_m)
-    return waveband_slope(elevation, interval_m, band)
+        signal = iri_trace(elevation, interval_m)
+    else:
+        signal = waveband_slope(elevation, interval_m, band)
+    # What was read of a file would stay in memory.
+    release(elevation)
+    return signal
 
 
-def _common_stretch(p: FloatArray, q: FloatArray) -> slice:
-    """Return the longest stretch with finite ends in ``p`` and in ``q``."""
-    both = np.isfinite(p) & np.isfinite(q)
+def common_stretch(both: BoolArray) -> slice:
+    """Return the longest stretch at whose ends ``both`` is true.
+
+    Raises InputError where that is at fewer than two points.
+    """
     if np.count_nonzero(both) < 2:
         raise InputError("the two profiles share no two measured points; nothing to compare")
-    return measured_stretch(np.where(both, p, np.nan))
+    return slice(int(both.argmax()), both.size - int(both[::-1].argmax()))
 
 
 def _check_cutoff(wavelength_m: float, interval_m: float) -> None:

@@ -19,28 +19,34 @@ def _c(interval: float, cutoff_wavelength: float) -> float:
     return math.tan(math.pi * interval / cutoff_wavelength)
 
 
-def high_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
+def high_pass_b3x2(
+    x: FloatArray, interval: float, cutoff_wavelength: float, out: FloatArray | None = None
+) -> FloatArray:
     """Return HPF_B3x2 of ``x``: HPF_B3S1, HPF_B3S2R, HPF_B3S1R and HPF_B3S2 in this order.
 
     ``cutoff_wavelength`` is that of each third-order pass; (A.22) gives it from the -3 dB
-    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals.
+    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals. With
+    ``out``, which may be ``x``, it is written there.
     """
     c = _c(interval, cutoff_wavelength)
-    y = np.empty(x.size)
+    y = np.empty(x.size) if out is None else out
     high_pass_1(x, y, new_record(STATE_VARIABLE), c, False)
     high_pass_21(y, y, new_record(STATE_VARIABLE), new_record(STATE_VARIABLE), c, True)
     high_pass_2(y, y, new_record(STATE_VARIABLE), c, False)
     return y
 
 
-def low_pass_b3x2(x: FloatArray, interval: float, cutoff_wavelength: float) -> FloatArray:
+def low_pass_b3x2(
+    x: FloatArray, interval: float, cutoff_wavelength: float, out: FloatArray | None = None
+) -> FloatArray:
     """Return LPF_B3x2 of ``x``: LPF_B3S1, LPF_B3S2R, LPF_B3S1R and LPF_B3S2 in this order.
 
     ``cutoff_wavelength`` is that of each third-order pass; (A.21) gives it from the -3 dB
-    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals.
+    wavelength of the set. It has the unit of ``interval`` and must exceed two intervals. With
+    ``out``, which may be ``x``, it is written there.
     """
     c = _c(interval, cutoff_wavelength)
-    y = np.empty(x.size)
+    y = np.empty(x.size) if out is None else out
     low_pass_1(x, y, new_record(STATE_VARIABLE), c, False)
     low_pass_2(y, y, new_record(STATE_VARIABLE), c, True)
     low_pass_1(y, y, new_record(STATE_VARIABLE), c, True)

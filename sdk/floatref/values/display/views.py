@@ -4,33 +4,32 @@
 The package itself, which knows all rooms, states where each is made; it is imported on first use.
 """
 
-from collections.abc import Callable, Mapping
 from importlib import import_module
-from typing import Any, NamedTuple
 
+# As in typing, whose import takes as long as all of `import floatref`.
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from typing import Any
 
-class Place(NamedTuple):
-    """Where a view is made: ``function``, called with the value alone, of ``module``."""
-
-    module: str
-    function: str
-
+Place = tuple[str, str]
+"""Where a view is made: a module, and the function of it that is called with the value alone."""
 
 _places: dict[str, Place] = {}
 
 
-def place_views(places: Mapping[str, Place]) -> None:
+def place_views(places: "Mapping[str, Place]") -> None:
     """State where views are made, by name; one that is stated again has its new place."""
     _places.update(places)
 
 
-def placed_views() -> Mapping[str, Place]:
+def placed_views() -> "Mapping[str, Place]":
     """Return where every view is made, by name."""
     return dict(_places)
 
 
-def view(name: str) -> Callable[[Any], Any]:
+def view(name: str) -> "Callable[[Any], Any]":
     """Return the function that makes the view called ``name``; KeyError if it has no place."""
-    place = _places[name]
-    made: Callable[[Any], Any] = getattr(import_module(place.module), place.function)
+    module, function = _places[name]
+    made: Callable[[Any], Any] = getattr(import_module(module), function)
     return made

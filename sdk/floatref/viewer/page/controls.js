@@ -110,13 +110,15 @@ function flag(name, text) {
   return checkbox(text, shown[name], (isOn) => (shown[name] = isOn));
 }
 
-// A run lies `lag` farther along than the reference; its shift moves it back.
+// A run was moved to its place on the road; there it lies `lag` farther along than the reference,
+// and its shift moves it back.
 function runChoice(run, number) {
   const box = document.createElement("span");
   box.className = "run";
   box.append(toggle(number ? run.name : `${run.name} (reference)`, shown.hiddenRuns, number));
   if (!number) return box;
   const unit = unitOf("distance");
+  if (run.moved) box.append(` moved by ${(run.moved * unit.factor).toFixed(3)} ${unit.text},`);
   const shift = document.createElement("input");
   Object.assign(shift, { type: "number", step: "any", value: (shown.shifts[number] * unit.factor).toFixed(3) });
   shift.setAttribute("aria-label", `Shift of ${run.name} in ${unit.text}`);
@@ -125,6 +127,7 @@ function runChoice(run, number) {
     redraw();
   };
   box.append(" shift ", shift, ` ${unit.text} `);
+  if (run.note) box.append(`(${run.lag === null ? "place not sure: " : ""}${run.note}) `);
   if (run.lag === null) return box;
   const align = box.appendChild(document.createElement("button"));
   align.textContent = `lag ${(run.lag * unit.factor).toFixed(3)} ${unit.text}: remove`;

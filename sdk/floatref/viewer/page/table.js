@@ -31,7 +31,8 @@ function addRow(body, columns, row) {
   const line = body.insertRow();
   line.classList.toggle("marked", Boolean(row.marked));
   line.classList.toggle("whole", Boolean(row.whole));
-  const place = Math.max(0, row.cells.findIndex((cell) => typeof cell !== "string"));
+  const kindOf = (cell, k) => (isOwn(cell) ? cell.kind : columns[k].kind);
+  const place = row.cells.findIndex((cell, k) => kindOf(cell, k) === row.domain);
   row.cells.forEach((cell, k) => {
     const column = line.insertCell();
     const isText = typeof cell === "string";
@@ -43,8 +44,13 @@ function addRow(body, columns, row) {
   if (row.marked) line.cells[0].append(" *");
 }
 
+// Whether the unit is that of the cell, not of its column.
+function isOwn(cell) {
+  return cell !== null && typeof cell === "object";
+}
+
 function numberText(cell, kind) {
-  const own = cell !== null && typeof cell === "object";
+  const own = isOwn(cell);
   const value = own ? cell.value : cell;
   if (value === null) return "–";
   const unit = unitOf(own ? cell.kind : kind);

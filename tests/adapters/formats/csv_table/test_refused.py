@@ -178,6 +178,7 @@ def test_what_other_adapters_read_is_not_taken_for_a_table(tmp_path: Path) -> No
         "e.txt": '{"a": [1, 2]}\n',
         "f.txt": "Permission is hereby granted, free of charge, to any person\n" * 4,
         "g.dat": "a,b\n1,2\n",
+        "i.txt": "LElev - Distance (ft)\tLElev_Full (in)\n0\t1\n0.1\t2\n",
         "h.csv": "\0\1\2\3",
     }
     for name, text in others.items():
@@ -186,6 +187,11 @@ def test_what_other_adapters_read_is_not_taken_for_a_table(tmp_path: Path) -> No
     profile = floatref.Profile(0.05, (floatref.ProfileTrack.of("main", np.zeros(5)),))
     floatref.write_profile_csv(profile, tmp_path / "profile.csv")
     assert not CsvTable().recognises(tmp_path / "profile.csv")
+
+
+def test_a_table_that_begins_with_a_distance_of_another_thing_is_recognised(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("wheel - distance (m)\ttime_s\theight\n0\t0\t1\n1\t1\t2\n")
+    assert CsvTable().recognises(tmp_path / "a.txt")
 
 
 @pytest.mark.parametrize("name", ["run.csv", "RUN.CSV", "run.tsv", "run.txt"])

@@ -1,4 +1,8 @@
-"""Text of profile viewers: what is written is read again, feet are feet, nothing is guessed."""
+"""Text of profile viewers: what is written is read again, feet are feet, nothing is guessed.
+
+Law: a number is read back within 1e-12 m, or that share of it where it is above one, and no number
+takes more than 15 characters.
+"""
 
 import numpy as np
 import pytest
@@ -8,6 +12,7 @@ from hypothesis import strategies as st
 from floatref import InputError, Profile, ProfileTrack
 from floatref.engine.formats import format_of, profile_of
 from floatref_adapters.formats.viewer_text.text_profile import ViewerText
+from floatref_adapters.formats.viewer_text.text_rows import write_number
 
 names = st.text(st.characters(codec="utf-8", categories=("L", "N")), min_size=1, max_size=12)
 free = names.filter(lambda name: name.lower() not in ("lelev", "relev"))
@@ -41,15 +46,47 @@ def test_what_is_written_is_read_again(tmp_path_factory, profile):
     path = tmp_path_factory.getbasetemp() / "law.txt"
     ViewerText().write(profile, path)
     back = profile_of(path)
-    assert back.start_m == profile.start_m
     last = profile.tracks[0].elevation.size - 1
-    assert abs(back.interval_m - profile.interval_m) * last <= 8 * np.spacing(
-        abs(profile.start_m) + last * profile.interval_m
-    )
+    ends = profile.start_m, profile.start_m + last * profile.interval_m
+    allowed_m = 1e-12 * max(1.0, *map(abs, ends))
+    assert back.start_m == pytest.approx(ends[0], rel=0, abs=allowed_m)
+    assert back.start_m + last * back.interval_m == pytest.approx(ends[1], rel=0, abs=2 * allowed_m)
     for found, given_track in zip(back.tracks, profile.tracks, strict=True):
         assert found.name == given_track.name
-        np.testing.assert_array_equal(found.elevation, given_track.elevation)
+        errors = np.abs(found.elevation - given_track.elevation)
+        assert not (errors > 1e-12 * np.maximum(1.0, np.abs(given_track.elevation))).any()
+        np.testing.assert_array_equal(np.isnan(errors), np.isnan(given_track.elevation))
         np.testing.assert_array_equal(found.valid, given_track.valid)
+    fields = [field for line in path.read_text().splitlines()[1:] for field in line.split("\t")]
+    assert max(map(len, fields)) <= 15
+
+
+@given(
+    thousandths=st.integers(-(10**9), 10**9),
+    wide=st.floats(-1e11, 1e11),
+    small=st.floats(-1.0, 1.0),
+)
+def test_a_number_is_as_short_as_it_is_right(thousandths, wide, small):
+    assert write_number(thousandths / 1000.0) == repr(thousandths / 1000.0 + 0.0)
+    assert write_number(0.0254 * 1.0000000000000002) == "0.0254"
+    for value in (wide, small, thousandths / 39.37):
+        text = write_number(value)
+        assert len(text) <= 15, text
+        assert float(text) == pytest.approx(value, rel=5.01e-13, abs=5.01e-13)
+    assert write_number(float("nan")) == ""
+
+
+@pytest.mark.parametrize("interval_m", [0.00508, 0.1 / 3.0, np.pi / 1000.0, 1.0 / 39.37])
+@pytest.mark.parametrize("start_m", [0.0, -1.0 / 3.0, 12345.678901])
+def test_a_long_profile_keeps_its_interval(tmp_path, interval_m, start_m):
+    """Over 40,000 points the first distances have fewer digits before the point than the last."""
+    profile = Profile(interval_m, (ProfileTrack.of("left", np.zeros(40_000)),), start_m)
+    ViewerText().write(profile, tmp_path / "run.txt")
+    back = ViewerText().read(tmp_path / "run.txt")
+    farthest = start_m + 39_999 * interval_m
+    found = back.start_m + 39_999 * back.interval_m
+    assert back.start_m == pytest.approx(start_m, rel=0, abs=1e-12 * farthest)
+    assert found == pytest.approx(farthest, rel=0, abs=2e-12 * farthest)
 
 
 def test_feet_and_inches_become_metres_and_short_channels_end_missing(tmp_path):

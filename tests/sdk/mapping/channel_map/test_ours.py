@@ -17,6 +17,8 @@ from floatref.mapping.channel_map.column_names import channel_of, map_of_ours
 from floatref.values.channels import CHANNELS
 from floatref.values.native import Column, NativeClock, NativeFile, Stream
 
+RUN = Path("my run.mf4")
+
 
 def file(*columns: Column, name: str = "") -> NativeFile:
     return NativeFile((Stream(name, columns, 0, NativeClock(), lambda names: iter(())),))
@@ -63,7 +65,7 @@ def test_a_track_is_ours_if_and_only_if_the_schema_has_it(track: str) -> None:
 
 
 def test_the_units_of_the_file_count_and_none_is_ours() -> None:
-    chart = map_of_ours(file(Column("left.height", "mm"), Column("distance"), Column("spare")))
+    chart = map_of_ours(file(Column("left.height", "mm"), Column("distance"), Column("spare")), RUN)
     assert [(e.native, e.channel, e.track, e.unit) for e in chart.channels] == [
         ("left.height", "height", "left", "mm"),
         ("distance", "distance", None, "m"),
@@ -71,14 +73,15 @@ def test_the_units_of_the_file_count_and_none_is_ours() -> None:
 
 
 def test_a_file_of_other_names_is_told_how_to_go_on() -> None:
-    with pytest.raises(InputError, match="floatref channels FILE --draft-map"):
-        map_of_ours(file(Column("Laser"), Column("DMI")))
+    """The command is one to be copied: it names the file, also one with a space in its name."""
+    with pytest.raises(InputError, match=r"`floatref channels 'my run.mf4' --draft-map`"):
+        map_of_ours(file(Column("Laser"), Column("DMI")), RUN)
 
 
 def test_two_of_one_channel_are_refused() -> None:
     both = NativeFile(file(Column("height"), name="a").streams + file(Column("height")).streams)
     with pytest.raises(InputError, match="height: its channel is there twice; choose one"):
-        map_of_ours(both)
+        map_of_ours(both, RUN)
 
 
 def test_units_are_converted_without_a_map(put: Callable[..., Path], make_stream, a_drive) -> None:

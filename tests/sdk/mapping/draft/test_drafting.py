@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from floatref.errors import InputError
 from floatref.mapping import read_map
 from floatref.mapping.channel_map.column_names import find
 from floatref.mapping.channel_map.conversion import Conversion
@@ -125,6 +126,15 @@ def test_an_entry_that_stands_as_a_comment_is_toml_too() -> None:
         ("height", "right", "volts"),
         ("vertical_specific_force", None, "m/s^2"),
     ]
+
+
+def test_a_map_that_is_still_all_comments_is_called_that(tmp_path: Path) -> None:
+    (tmp_path / "map.toml").write_text(drafted(Column("Laser L"), Column("Acc z")))
+    with pytest.raises(InputError, match=r"map\.toml: its channels, 2, are all comments.* the # "):
+        read_map(tmp_path / "map.toml")
+    (tmp_path / "map.toml").write_text('format = "floatref-map/1"\n')
+    with pytest.raises(InputError, match="has no channels"):
+        read_map(tmp_path / "map.toml")
 
 
 @pytest.mark.parametrize(("column", "mark"), [("Laser", ""), ("spare", "# ")])

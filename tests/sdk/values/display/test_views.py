@@ -37,7 +37,7 @@ def test_the_maker_takes_the_value_that_asks_alone(name: str) -> None:
     first, *others = inspect.signature(made).parameters.values()
     assert asked_for()[name] in str(first.annotation)
     assert all(other.default is not inspect.Parameter.empty for other in others)
-    assert made.__module__ == placed_views()[name].module
+    assert made.__module__ == placed_views()[name][0]
     assert import_module(made.__module__).__doc__
 
 

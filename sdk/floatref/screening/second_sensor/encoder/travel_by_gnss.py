@@ -75,7 +75,7 @@ def encoder_doubts(recording: Recording) -> Iterator[Doubt]:
 
 
 def ways_of(recording: Recording) -> Ways | None:
-    """Return the ways of a run by encoder and receiver, None without places."""
+    """Return the ways of a run by encoder and receiver, None without places that are numbers."""
     latitude, longitude = recording.find("gnss_latitude"), recording.find("gnss_longitude")
     if latitude is None or longitude is None or latitude.values.size != longitude.values.size:
         return None
@@ -86,6 +86,8 @@ def ways_of(recording: Recording) -> Ways | None:
     begin, end = encoder.span_s
     chosen = chosen[(times[chosen] >= begin) & (times[chosen] <= end)]
     if chosen.size <= FEWEST:
+        return None
+    if not np.isfinite(latitude.values[chosen] + longitude.values[chosen]).any():
         return None
     good = _good(recording.find("gnss_quality"), times)
     north = np.where(good, RADIUS_M * latitude.values, WITHOUT_FIX)[chosen]

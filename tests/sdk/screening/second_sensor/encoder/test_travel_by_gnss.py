@@ -1,12 +1,14 @@
 """The encoder against places: scale, lost counts, lateness; slip of a hard brake is no fault."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.screening.second_sensor.doubts import Doubt
-from floatref.screening.second_sensor.encoder.travel_by_gnss import RADIUS_M, encoder_doubts
+from floatref.screening.second_sensor.encoder.travel_by_gnss import FEWEST, RADIUS_M, encoder_doubts
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording
@@ -79,6 +81,21 @@ def test_slip_of_a_hard_brake_is_no_fault() -> None:
 def test_a_late_encoder_is_in_doubt_from_the_beginning() -> None:
     ((begin, _),) = doubts(travel(np.maximum(TIMES - 3.0, 0.0)))[0].spans
     assert begin == pytest.approx(0.0, abs=1.0)
+
+
+@pytest.mark.parametrize("names", [["gnss_latitude"], ["gnss_longitude"], ["gnss_quality"]])
+@pytest.mark.parametrize("known", [0, 1, FEWEST])
+def test_places_that_are_no_numbers_are_no_places(names: list[str], known: int) -> None:
+    """Without a warning of numpy, which is an error here; a few places give no ratio either."""
+    whole = recording(3.0 * travel(TIMES))
+    stride = round(GNSS_HZ)
+    channels = []
+    for channel in whole.channels:
+        values = channel.values.copy()
+        if str(channel.id) in names:
+            values[known * stride :] = np.nan
+        channels.append(replace(channel, values=values))
+    assert not list(encoder_doubts(replace(whole, channels=tuple(channels))))
 
 
 def test_without_places_there_is_no_doubt() -> None:

@@ -7,6 +7,12 @@ from typing import Any, TypeVar
 
 import click
 
+from floatref.cli.recordings.recording_options import (
+    READING,
+    RecordingReader,
+    add_options,
+    beside,
+)
 from floatref.errors import InputError
 from floatref.measures.ride.segment_measures import RideLimits
 from floatref.values.profile import Profile
@@ -16,12 +22,11 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Layer:
-    """A layer to write: its file, and the recording that has the places, with adapter and map."""
+    """A layer to write: its file, the recording that has the places, and how that is read."""
 
     path: Path
     recording: Path
-    adapter: str | None = None
-    channel_map: Path | None = None
+    reading: RecordingReader
 
 
 def layer_options(command: F) -> F:
@@ -33,24 +38,10 @@ def layer_options(command: F) -> F:
             metavar="FILE",
             help="Write the segments as lines to FILE.geojson or FILE.gpkg.",
         ),
-        click.option(
-            "--recording",
-            type=click.Path(path_type=Path),
-            help="For --gis: the recording that PROFILE was made of, which has the places.",
-        ),
-        click.option("--adapter", metavar="NAME", help="Read the recording with this adapter."),
-        click.option(
-            "--map",
-            "channel_map",
-            type=click.Path(path_type=Path),
-            metavar="FILE.toml",
-            help="Channel map of the recording, if it is a native file.",
-        ),
-        click.option("--overwrite", is_flag=True, help="Replace an existing FILE."),
+        beside("For --gis: the recording that PROFILE was made of, which has the places."),
+        *READING,
     )
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return add_options(command, options)
 
 
 def layer_of(
@@ -65,8 +56,9 @@ def layer_of(
     Raises InputError for `--gis` without a recording, the other options without `--gis`, and for a
     file that could not be written later.
     """
+    reading = RecordingReader(adapter, channel_map)
     if gis is None:
-        if recording is not None or adapter is not None or channel_map is not None or overwrite:
+        if recording is not None or reading.is_stated or overwrite:
             raise InputError("--recording, --adapter, --map and --overwrite are for --gis FILE")
         return None
     from floatref.files.gis.layer import check_layer
@@ -74,7 +66,7 @@ def layer_of(
     if recording is None:
         raise InputError("--gis needs the places of a recording; give --recording RECORDING")
     check_layer(gis, overwrite)
-    return Layer(gis, recording, adapter, channel_map)
+    return Layer(gis, recording, reading)
 
 
 def write_profile_layer(
@@ -93,9 +85,8 @@ def write_profile_layer(
     from floatref.batch.results.segment_layer import features_of, layer_columns
     from floatref.batch.results.segments import measure_segments
     from floatref.files.gis.layer import write_layer
-    from floatref.mapping.sources import recording_of
 
-    read = recording_of(layer.recording, layer.adapter, layer.channel_map)
+    read = layer.reading.source_at(layer.recording)
     if not is_located(read.recording):
         raise InputError(
             f"{layer.recording}: no channels gnss_latitude and gnss_longitude; "
@@ -103,7 +94,7 @@ def write_profile_layer(
         )
     _check_same(profile, read.origin["sha256"], layer.recording)
     rows, remarks = measure_segments(profile, segment_m, read.recording, limits is not None, limits)
-    for line in (*read.warnings, *remarks):
+    for line in remarks:
         click.echo(f"Warning: {line}", err=True)
     columns = layer_columns(limits is not None)
     # The target was checked before, and may have been meant to be replaced.

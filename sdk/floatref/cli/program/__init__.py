@@ -1,0 +1,1 @@
+"""How both programs start, and how Ctrl-C ends them."""
