@@ -10,7 +10,7 @@
 
 #include "c_draws.h"
 
-enum { LARGEST = 1 << 20, CALLS = 58, KINDS = 20 };
+enum { LARGEST = 1 << 23, CALLS = 64, KINDS = 21 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -33,6 +33,7 @@ typedef union any_config {
     fr_saturation_config saturation;
     fr_encoder_screening_config encoder_screening;
     fr_usual_config usual;
+    fr_level_config level;
 } any_config;
 
 static void set_kalman(fr_kalman_filter_config *c, double count_m)
@@ -93,6 +94,10 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
              c.farthest = 1 + (int)draw(99); c.outermost_mps2 = 1; c.quantum = 0.01 * draw(9))
         KIND(18, encoder_screening, c.rate_hz = 250; c.metres_per_count = count_m)
         KIND(19, usual, c.longest = 2 + (int)draw(99))
+        KIND(20, level, c.rate_hz = 20.0 + 20.0 * draw(2); c.metres_per_count = count_m;
+             c.fit.front_m = 1.5; c.fit.rear_m = -1.5; c.fit.longest_s = 40.0;
+             c.fit.most_travel_m = 200.0; c.fit.most_width = 16 + 8 * (int)draw(8);
+             c.paths = 1 + (int)draw(2); c.back = (int)draw(2); c.missing = (int)draw(2))
     default:
         return FR_BAD_CONFIG;
     }
@@ -110,6 +115,85 @@ static fr_status read_gnss(int smoother, void *o)
     }
     return smoother ? fr_kalman_push_gnss(o, sample, draw(99) ? values : NULL, given)
                     : fr_kalman_filter_push_gnss(o, sample, draw(99) ? values : NULL, given);
+}
+
+static double *as_double(const fr_real *x, size_t count, double least, double most)
+{
+    double *y = malloc(count * sizeof *y + (count == 0));
+    for (size_t i = 0; i < count; i++)
+        y[i] = draw(2000) == 0 ? odd_number() : fmin(fmax((double)x[i], least), most);
+    return y;
+}
+
+/* A brake on a flat road, so that a fit is found. */
+static void calm(double *const *columns, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        double step = 0.05 * (double)i;
+        columns[0][i] = 1e-4 * fmin(fmax(columns[0][i], -20.0), 20.0);
+        columns[1][i] = 0.0;
+        columns[2][i] = 0.3 + 1e-6 * fmin(fmax(columns[2][i], -20.0), 20.0);
+        columns[4][i] = fmax(8.0 - step, 0.0);
+        columns[5][i] = step < 8.0 ? -1.0 : 0.0;
+    }
+}
+
+/* A fit of drawn bins in memory of exactly its size; a refused one may not change it. */
+static fr_status fit_bins(arrays *a)
+{
+    fr_level_fit_config c = fr_level_fit_defaults();
+    double *columns[6], *pitch = malloc((a->capacity + 1) * 2 * sizeof *pitch), at = 0.0;
+    fr_level_bins bins = {a->n, NULL, NULL, NULL, NULL, NULL, NULL, a->count};
+    fr_level_result result;
+    size_t size;
+    fr_status status;
+    void *memory;
+    c.step_s = draw(2) ? 0.05 : 0.02;
+    c.front_m = draw(2) ? 1.5 : 20.0;
+    c.rear_m = c.front_m - 3.0;
+    c.longest_s = draw(9) ? 12.0 : 2.0;
+    c.most_travel_m = draw(9) ? 100.0 : 1.0;
+    c.most_width = 16 + 8 * (int)draw(12);
+    size = fr_level_fit_size(&c);
+    memory = calloc(1, size);
+    for (int i = 0; i < 6; i++)
+        columns[i] = as_double(i % 2 ? a->h : a->x, a->count, i == 1 ? 0.0 : -1e9, i == 1 ? 1.0 : 1e9);
+    if (draw(2) == 0)
+        calm(columns, a->count);
+    for (size_t i = 0; i < a->count; i++) {
+        columns[3][i] = at += columns[4][i] * 0.02;
+        a->n[i] = i == 0 ? 0 : a->n[i - 1] + (draw(40) ? 1 : 1 + (int64_t)draw(1000));
+    }
+    bins.force = columns[0];
+    bins.missing = columns[1];
+    bins.height = columns[2];
+    bins.distance = columns[3];
+    bins.speed = columns[4];
+    bins.along = columns[5];
+    status = fr_level_fit(&c, memory, size, &bins, &result, pitch, pitch + a->capacity, a->capacity,
+                          &a->written);
+    for (int i = 0; i < 6; i++)
+        free(columns[i]);
+    free(pitch);
+    free(memory);
+    return status;
+}
+
+/* Levelling: four wheel paths are four times as many values, so a push has a quarter of its arrays. */
+static fr_status call_level(int which, void *o, arrays *a)
+{
+    fr_level_bin *bins = malloc((a->capacity + 1) * sizeof *bins);
+    int64_t every;
+    fr_status status = FR_OK;
+    switch (which) {
+    case 20: status = fr_level_push(o, a->x, a->h, a->n, a->count / 4, &a->written); break;
+    case 60: status = fr_level_take(o, bins, a->capacity, &a->written); break;
+    case 61: status = fr_level_finish(o, &a->written); break;
+    case 62: status = fr_level_every(o, &every); break;
+    default: status = fit_bins(a); break;
+    }
+    free(bins);
+    return status;
 }
 
 /* One of the calls that take a finished profile, without an object. */
@@ -189,7 +273,12 @@ static fr_status call(int which, void *o, arrays *a)
     case 45: return fr_adaptive_set_reverse(o, a->x, a->f, n, a->y, room, w);
     case 46:
         return fr_adaptive_set_reverse_over_distance(o, number(), a->x, a->f, n, a->y, room, w);
-    case 20: return fr_adaptive_set_finish(o);
+    case 59: return fr_adaptive_set_finish(o);
+    case 20:
+    case 60:
+    case 61:
+    case 62:
+    case 63: return call_level(which, o, a);
     case 21: return fr_adaptive_finish(o, a->x, a->f, n, a->y, room, w);
     case 22: return fr_iri_finish(o, a->y, room, w);
     case 23: return fr_iri_value(o, a->capacity > 0 ? a->y : NULL);
@@ -212,6 +301,8 @@ static int fail(const char *what, int kind, int which)
 static int push_once(int kind, void **object, size_t size, int64_t *counts, long *done)
 {
     int which = draw(8) ? kind : (int)draw(CALLS), wrong = 0;
+    if (kind == 20 && draw(4) == 0)
+        which = draw(9) ? 60 : 61;
     arrays a = drawn_arrays(counts);
     unsigned char *before = malloc(size);
     fr_real *y = malloc(a.capacity * sizeof *y + (a.capacity == 0));
@@ -248,7 +339,8 @@ static int one_object(long *done, long *objects)
 {
     any_config config;
     size_t size = 0, needed;
-    int kind = (int)draw(KINDS), wrong = 0;
+    int kind = draw(100) ? (int)draw(KINDS - 1) : KINDS - 1; /* whose memory is 8 MB */
+    int wrong = 0;
     void *object, *out = NULL;
     int64_t counts = draw(1000);
     memset(&config, 0, sizeof config);
@@ -263,7 +355,7 @@ static int one_object(long *done, long *objects)
     if (of_kind(kind, 2, &config, &needed, object, &out) != (size > 0 ? FR_OK : FR_BAD_CONFIG))
         wrong = fail("size and init disagree", kind, 0);
     *objects += size > 0;
-    for (int i = 0; size > 0 && !wrong && i < 12; i++)
+    for (int i = 0; size > 0 && !wrong && i < (kind == 20 ? 60 : 12); i++)
         wrong = push_once(kind, &object, size, &counts, done);
     free(object);
     return wrong;

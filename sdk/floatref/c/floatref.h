@@ -924,6 +924,138 @@ FR_API fr_status fr_kalman_finish(fr_kalman *kalman, fr_real *elevation, fr_real
                                   uint8_t *flags, size_t capacity, size_t *written);
 /* As fr_kalman_filter_left_out(). */
 FR_API fr_status fr_kalman_left_out(const fr_kalman *kalman, int64_t count[4]);
+/* ---------------------------------------------------------------------------------------------
+ * Levelling by the road: the pitch of the body through a stretch in which the vehicle brakes, stands
+ * or sets off, from the slope that its sensors measure themselves (docs/road-prior-slope.md). One
+ * fit of bins, each the mean of all wheel paths, by least squares over pitch, lean, bias, springs
+ * and road. Double in both builds. No object: the memory is used during the call alone, and its size
+ * follows from the longest stretch. A fit is made once for each stop; it takes some 0.1 s on a PC.
+ */
+typedef struct fr_level_fit_config {
+    double step_s;        /* from bin to bin, 0.002 to 0.06; 0.01 */
+    double front_m;       /* front axle ahead of the laser; no default */
+    double rear_m;        /* rear axle ahead of the laser, below that of the front axle; no default */
+    double lever_m;       /* laser ahead of its accelerometer; 0 */
+    double wavelength_m;  /* cut-off of the high-pass that the profile passes; 105.91 */
+    double road_m;        /* intensity of the road's elevation; 4e-6 */
+    double bends_per_m;   /* intensity of a plain road's slope, in 1/m; 2e-7 */
+    double acceleration;  /* density of the accelerometer, in m/s^2/sqrt(Hz); 1.5e-4 */
+    double missing_acceleration; /* the same where samples are missing; 0.3 */
+    double bias;          /* 1-sigma of its bias in m/s^2; 0.03 */
+    double walk;          /* and of its walk in m/s^2/sqrt(s); 1e-4 */
+    double gain;          /* expected pitch per force along the road, in rad per m/s^2; 0.00431 */
+    double gain_sigma;    /* and its 1-sigma; 0.00371 */
+    double lean_rad;      /* expected lean of the accelerometer's axis backward; 0 */
+    double lean_sigma_rad; /* and its 1-sigma, 0.03 over the root of wheel paths; 0.0212 for two */
+    double pitch_hz;      /* natural frequency of the body in pitch; 1.6 */
+    double pitch_damping; /* and its damping ratio; 0.3 */
+    double longest_s;     /* longest stretch in bins that are given, 2 to 600; 120 */
+    double most_travel_m; /* longest stretch of road, at most 10000; 1500 */
+    int32_t most_width;   /* unknowns that may be together at a time, 16 to 512; 96 */
+    int32_t reserved;     /* 0 */
+} fr_level_fit_config;
+
+/* Bins in order, `count` in each array. `number` rises; where it leaps, bins were left out, as in
+ * the middle of a standstill. Pieces shorter than 0.5 s are not used. */
+typedef struct fr_level_bins {
+    const int64_t *number;  /* of a bin in the run */
+    const double *force;    /* vertical specific force less 1 g, in m/s^2 */
+    const double *missing;  /* share of it that was missing and is bridged, 0 to 1 */
+    const double *height;   /* of the laser over the road, in m; NaN where it is missing */
+    const double *distance; /* of the encoder, in m; does not fall */
+    const double *speed;    /* in m/s */
+    const double *along;    /* acceleration along the road, in m/s^2 */
+    size_t count;
+} fr_level_bins;
+
+/* What became of a stretch. Only the first is levelled. */
+enum {
+    FR_LEVEL_FOUND = 0,
+    FR_LEVEL_TOO_SHORT = 1, /* no three nodes follow each other */
+    FR_LEVEL_TOO_LONG = 2,  /* more bins, road or unknowns at a time than the memory is for */
+    FR_LEVEL_UNSETTLED = 3, /* the fit has not settled */
+    FR_LEVEL_UNLIKELY = 4   /* it has settled on a vehicle that there hardly is */
+};
+
+typedef struct fr_level_result {
+    double vehicle[8];   /* gain in rad per m/s^2, lean in rad, place of the centre of gravity, ln of
+                            front and rear stiffness and damping, and of the gyration */
+    double grade;        /* mean slope of the road, which a high-pass removes */
+    double changed_rad;  /* largest change of a pitch by the last step */
+    double prior_misfit; /* squares by which constants are off what is expected, over their 1-sigma */
+    int32_t passes;      /* of the fit */
+    int32_t outcome;     /* FR_LEVEL_FOUND to FR_LEVEL_UNLIKELY */
+} fr_level_result;
+
+FR_API fr_level_fit_config fr_level_fit_defaults(void);
+/* Bytes of memory, 0 for a setting that is not possible. */
+FR_API size_t fr_level_fit_size(const fr_level_fit_config *config);
+/* Pitch in rad, nose up, and 1-sigma in m of the high-passed elevation that it leaves, of every bin.
+ * They are 0 and 0.05 unless the outcome is FR_LEVEL_FOUND. A force is level by adding
+ * a (P - grade) + g (P^2 - lean^2) / 2 with P = pitch + lean and `along` for a; a height is carried
+ * to the accelerometer by taking lever sin(pitch) from it. */
+FR_API fr_status fr_level_fit(const fr_level_fit_config *config, void *memory, size_t size,
+                              const fr_level_bins *bins, fr_level_result *result, double *pitch,
+                              double *sigma_m, size_t capacity, size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * The same as samples come: bins of about 10 ms, the stretches in which the vehicle brakes, stands
+ * or sets off with the road before and behind, and a fit of each. What comes out is for bins: what
+ * has to be added to every force, and the pitch by which heights are carried to the accelerometer.
+ *
+ * Away from brakes a bin is ready when the vehicle has gone on for 60 m, or has moved for 30 s. At a
+ * brake it waits until the stretch ends, 90 m behind it, and has gone on for as much. The middle of
+ * a standstill is left out, so one of any length takes constant memory. A stretch of more than
+ * fit.longest_s or fit.most_travel_m is fitted in windows that share 20 s. Where a fit is not found
+ * the outcome says why, the share is 0 and the 1-sigma is 0.05 m.
+ *
+ * A push makes the fits of the stretches that end in it, each of some 0.1 s on a PC. No call models the
+ * pitch between brakes: there heights stay as they are read, but for what the last brake has left.
+ */
+typedef struct fr_level_config {
+    double rate_hz;          /* samples per second, at least 20; no default */
+    double metres_per_count; /* of the encoder, at most 10; no default */
+    fr_level_fit_config fit; /* its step follows from the rate */
+    int32_t paths;           /* wheel paths, 1 to 4; 2 */
+    int32_t back;            /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
+    int32_t missing;         /* FR_MISSING_REFUSED, or FR_MISSING_BRIDGED: it does not count in its
+                                bin, and a bin of which more than half is missing is not known */
+    int32_t reserved;        /* 0 */
+} fr_level_config;
+
+/* No brake: the bin is in no stretch. Beside FR_LEVEL_FOUND and so on. */
+enum { FR_LEVEL_NO_BRAKE = -1 };
+
+/* Its middle is at sample `first` + (every - 1) / 2 of the run. Between bins all are linear in time,
+ * also across those that are left out in a standstill. */
+typedef struct fr_level_bin {
+    int64_t first;    /* its first sample */
+    double added;     /* to every force, in m/s^2 */
+    double sin_pitch; /* a height is less by this times the lever of its laser */
+    double share;     /* to which it is levelled, 0 to 1 */
+    double sigma_m;   /* 1-sigma of the high-passed elevation that this leaves */
+    int32_t outcome;  /* FR_LEVEL_NO_BRAKE to FR_LEVEL_UNLIKELY: the worst of its fits */
+    int32_t reserved; /* 0 */
+} fr_level_bin;
+
+typedef struct fr_level fr_level;
+
+FR_API fr_level_config fr_level_defaults(void);
+FR_API size_t fr_level_size(const fr_level_config *config);
+FR_API fr_status fr_level_init(void *memory, size_t size, const fr_level_config *config,
+                               fr_level **out);
+/* Samples of a bin. */
+FR_API fr_status fr_level_every(const fr_level *level, int64_t *every);
+/* `force` with 1 g in it, in m/s^2, and `height` in m, down to the road, of all wheel paths of a
+ * sample, then of the next: count * paths values. At most 20 s at a time. FR_OUTPUT_FULL unless the
+ * bins that are ready are taken before: *ready is their number. */
+FR_API fr_status fr_level_push(fr_level *level, const fr_real *force, const fr_real *height,
+                               const int64_t *counts, size_t count, size_t *ready);
+/* End the run: all bins become ready. */
+FR_API fr_status fr_level_finish(fr_level *level, size_t *ready);
+/* The bins that are ready, the first `capacity` of them, after the end too. */
+FR_API fr_status fr_level_take(fr_level *level, fr_level_bin *bins, size_t capacity,
+                               size_t *written);
 
 #ifdef __cplusplus
 }
