@@ -60,6 +60,11 @@ if TYPE_CHECKING:
     from floatref.interfaces.recording_format import RecordingFormat as RecordingFormat
     from floatref.interfaces.stage_calls import Setting as Setting
     from floatref.interfaces.stage_calls import StageCall as StageCall
+    from floatref.live.points import LivePoints as LivePoints
+    from floatref.live.points import join_points as join_points
+    from floatref.live.stream import LiveStream as LiveStream
+    from floatref.live.stream import resume_stream as resume_stream
+    from floatref.live.stream import start_stream as start_stream
     from floatref.mapping import read_native as read_native
     from floatref.measures import agreement as agreement
     from floatref.measures import channel_noise as channel_noise
@@ -139,6 +144,8 @@ _PUBLIC = {
     "InputError": "errors",
     "JointInputState": "vehicle_response",
     "Kind": "vehicle_response",
+    "LivePoints": "live.points",
+    "LiveStream": "live.stream",
     "LocalSuppression": "retrofit",
     "MatchedHighPass": "retrofit",
     "NativeAdapter": "interfaces.adapter",
@@ -185,6 +192,7 @@ _PUBLIC = {
     "hold_error_of": "vehicle_response",
     "hookimpl": "interfaces.markers",
     "join_blocks": "values.block",
+    "join_points": "live.points",
     "make_stage": "engine.lookup",
     "missing_extra": "errors",
     "on_common_grid": "measures",
@@ -195,9 +203,11 @@ _PUBLIC = {
     "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",
+    "resume_stream": "live.stream",
     "setup_of": "files.recording_directory",
     "short_interval_roughness": "measures",
     "stage_names": "engine.lookup",
+    "start_stream": "live.stream",
     "write_profile": "files",
     "write_profile_csv": "files",
     "write_recording": "files",

@@ -26,6 +26,7 @@ BREACHES = {
     "sdk/floatref/retrofit/alone.py": "floatref.engine.flow",
     "sdk/floatref/engine/flow.py": "floatref_conformance",
     "sdk/floatref/engine/collecting.py": "floatref.cli",
+    "sdk/floatref/live/points.py": "floatref.mapping.reading",
     "sdk/floatref/errors.py": "floatref_reference",
     "sdk/floatref/plots/figure.py": "floatref_adapters",
     "sdk/floatref/plots/sensitivity.py": "floatref.tuning.levels",

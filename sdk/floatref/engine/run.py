@@ -13,6 +13,7 @@ from typing import Any
 from floatref.builtin_pipelines.laser_place import bring_abeam, record_laser
 from floatref.builtin_pipelines.signal_flows import NEEDS, SIGNAL_FLOWS
 from floatref.engine import flow
+from floatref.engine.axis_place import Place, first_point
 from floatref.engine.collecting import collect_profile
 from floatref.engine.fall_back import fill_gaps, gaps_of
 from floatref.engine.height_skew import Aligned, align_heights
@@ -75,6 +76,13 @@ class _Order:
     pipeline: Pipeline
     settings: Mapping[str, float | None]
     diagnostics: bool = False
+    place: Place | None = None
+
+    def origin_of(self, distance_m: float) -> float:
+        """Return where the points of the profile begin, of a stream that begins there, in m."""
+        if self.place is None:
+            return distance_m
+        return first_point(distance_m, self.recording.setup.profile_interval_m)
 
 
 def run(
@@ -84,16 +92,21 @@ def run(
     progress: Progress | None = None,
     known: Screening | None = None,
     diagnostics: bool = False,
+    place: Place | None = None,
 ) -> Result:
     """Return the profile and the warnings; ``progress`` is called with the fraction read.
 
     Results of ``known``, the screening of an earlier run, for the same channels are reused. With
     ``diagnostics`` the normalized innovations are kept, and summed up in the profile's record;
-    InputError for a pipeline without any.
+    InputError for a pipeline without any. ``place`` is where a part of a longer recording lies on
+    its axis of distance.
     """
-    order = replace(_settle(plugins(), recording, pipeline, settings), diagnostics=diagnostics)
+    order = _settle(plugins(), recording, pipeline, settings)
+    order = replace(order, diagnostics=diagnostics, place=place)
     forward = leave_out_steps_back(order.recording)
     along = correct_distance(forward.recording, order.settings.get("slip_per_g"))
+    if place is not None:
+        along = replace(along, recording=place.move(forward.recording, along.recording))
     aligned = align_heights(along.recording)
     order = replace(order, recording=aligned.recording)
     result, source = _make_profile(order, known, progress)
@@ -164,9 +177,9 @@ def _ask(order: _Order, source: Source) -> list[Stage]:
         pipeline=order.pipeline,
         settings=order.settings,
         header=source.header,
-        origin_m=source.origin_m,
+        origin_m=order.origin_of(source.origin_m),
         fastest_mps=source.fastest_mps,
-        ends_m=source.ends_m,
+        ends_m=(order.origin_of(source.ends_m[0]), source.ends_m[1]),
     )
     flow_of = SIGNAL_FLOWS[order.pipeline.architecture]
     stages = flow_of(lambda point: order.plugins.ask(context(point=point)))
@@ -206,6 +219,7 @@ def _bridge_gaps(order: _Order, result: Result, source: Source) -> Result:
 
     def process(pipeline: str, settings: Mapping[str, Any] | None = None) -> Profile:
         other = _settle(order.plugins, order.recording, pipeline, settings)
+        other = replace(other, place=order.place)
         return _make_profile(other, result.screening)[0].profile
 
     asked = DropOut(order.recording, result.profile, gaps, process)

@@ -134,19 +134,20 @@ def make_profile(
     settings: Mapping[str, Any],
     progress: Callable[[float], None] | None = None,
     diagnostics: bool = False,
+    as_live: bool = False,
 ) -> "Result":
     """Return the profile of ``read`` by ``pipeline``, and warnings, one line each.
 
     Warnings and errors have the native names of channels. ``progress`` is called with the part of
-    the recording that has been processed; ``diagnostics`` is as in `run`. Raises
-    InputError with one line naming the source for a recording, pipeline or setting that cannot be
-    used.
+    the recording that has been processed; ``diagnostics`` is as in `run`, ``as_live`` as in
+    `floatref.process`, and not both are given. Raises InputError with one line naming the source
+    for a recording, pipeline or setting that cannot be used.
     """
-    from floatref.engine.automatic import run_named_or_best
+    from floatref.live.as_live import way_of
 
-    order = pipeline, settings, progress, diagnostics
+    make = way_of(as_live, diagnostics)
     with name_errors(read.path), read.name_errors_natively():
-        result = run_named_or_best(read.recording, *order)
+        result = make(read.recording, pipeline, settings, progress)
     provenance = {**result.profile.provenance, **read.origin}
     warnings = (*read.warnings, *map(read.name_natively, result.warnings))
     profile = replace(result.profile, provenance=provenance)

@@ -5,10 +5,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from floatref.engine.automatic import run_named_or_best
 from floatref.engine.choosing import AUTO
 from floatref.engine.run import FloatrefWarning, Result
 from floatref.errors import InputError
+from floatref.live.as_live import way_of
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
 
@@ -19,6 +19,7 @@ def process(
     settings: Mapping[str, Any] | None = None,
     channel_map: Path | str | None = None,
     adapter: str | None = None,
+    as_live: bool = False,
 ) -> Profile:
     """Return the profile of ``recording`` by ``pipeline``.
 
@@ -30,15 +31,17 @@ def process(
     ``adapter`` names what reads it, by default what recognises it. ``settings`` replaces the
     pipeline's defaults by name. The profile of a path has its source in ``provenance``.
 
+    ``as_live`` makes the profile that a live stream makes of the same samples, window by window.
+
     Warns with `FloatrefWarning`. Raises InputError for a recording, path, map, pipeline or setting
     that cannot be used and PluginError if two plug-ins answer the same point.
     """
     chosen = settings or {}
     if isinstance(recording, Recording):
         _check_read(channel_map, adapter)
-        result = run_named_or_best(recording, pipeline, chosen)
+        result = way_of(as_live)(recording, pipeline, chosen)
     else:
-        result = _process_path(Path(recording), pipeline, chosen, channel_map, adapter)
+        result = _process_path(Path(recording), pipeline, chosen, channel_map, adapter, as_live)
     for line in result.warnings:
         warnings.warn(line, FloatrefWarning, stacklevel=2)
     return result.profile
@@ -57,8 +60,10 @@ def _process_path(
     settings: Mapping[str, Any],
     channel_map: Path | str | None,
     adapter: str | None,
+    as_live: bool,
 ) -> Result:
     from floatref.mapping.sources import make_profile, recording_of
 
     chart = None if channel_map is None else Path(channel_map)
-    return make_profile(recording_of(source, adapter, chart), pipeline, settings)
+    read = recording_of(source, adapter, chart)
+    return make_profile(read, pipeline, settings, as_live=as_live)

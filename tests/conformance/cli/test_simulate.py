@@ -71,7 +71,7 @@ def test_reference_pass_by_name(tmp_path: Path) -> None:
         (("ref_72", "--out", "no/new"), "no/new: its folder does not exist"),
         (("ref_72", "--out", "new", "--truth", "new"), "is the recording's own folder"),
         (("ref_72", "--out", "new", "--truth", "new/truth"), "its folder does not exist"),
-        (("ref_72",), "Missing option '--out'"),
+        (("ref_72",), "Missing option '-o' / '--out'"),
         (("ref_72", "--out", "new", "--seed", "-1"), "Invalid value for '--seed'"),
     ],
 )

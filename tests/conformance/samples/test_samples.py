@@ -78,7 +78,7 @@ def test_the_network_has_one_recording_that_cannot_be_read(small, tmp_path):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("certification",), "Missing option '--out'"),
+        (("certification",), "Missing option '-o' / '--out'"),
         (("roads", "--out", "new"), "'roads' is not one of 'certification', 'network'"),
         (("network", "--out", "old"), "old: exists; choose another name"),
         (("network", "--out", "no/new"), "new: its folder does not exist"),

@@ -175,3 +175,10 @@ def test_a_profile_without_long_waves_is_that_of_the_sdk(double, seed, count):
     assert status == 0
     expected = high_pass_b3x2(z - z[0], 0.5, setting)
     np.testing.assert_allclose(made, expected, rtol=0, atol=1e-12 * np.abs(z - z[0]).max())
+
+
+@pytest.mark.parametrize("wavelength_m", [0.0, -1.0, float("nan"), float("inf")])
+def test_an_impossible_wavelength_has_a_status(double, wavelength_m):
+    config = double.config("high_pass_profile", interval_m=0.5, wavelength_m=wavelength_m)
+    status, _ = double.array_call("fr_high_pass_profile", config, np.zeros(3))
+    assert status == 6

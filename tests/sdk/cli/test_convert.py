@@ -124,7 +124,7 @@ def test_an_existing_target_needs_overwrite(
         (["made/profile.json", "--out", "made", "--overwrite"], "the source itself"),
         (["made", "--out", "made/o.csv"], "the source itself"),
         (["made.csv", "--out", "made.csv", "--format", "erd", "--overwrite"], "source itself"),
-        (["made"], "Missing option '--out'"),
+        (["made"], "Missing option '-o' / '--out'"),
         (["made", "--out", "o", "--format", "xls"], "'xls' is not one of"),
     ],
 )

@@ -100,7 +100,7 @@ def test_an_existing_target_needs_overwrite(folder, ran, refused):
         (["run", "--out", "nowhere/o"], "its folder does not exist"),
         (["run", "--out", "o", "--plot", "o.txt"], "not the name of a drawing"),
         (["unknown.bin", "--out", "o"], "no adapter recognises it"),
-        (["run"], "Missing option '--out'"),
+        (["run"], "Missing option '-o' / '--out'"),
         (["run", "--out", "o", "--colour"], "No such option"),
         (["run", "--out", "o", "--format", "xls"], "'xls' is not one of"),
     ],

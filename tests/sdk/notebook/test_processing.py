@@ -35,6 +35,15 @@ def test_a_path_gives_what_its_recording_gives(tmp_path, recording, kind) -> Non
     assert found.provenance["source"] == "run"
 
 
+def test_a_path_as_live_gives_what_its_recording_gives_as_live(tmp_path, recording) -> None:
+    write_recording(recording, tmp_path / "run")
+    found = process(tmp_path / "run", "temporal-basic", as_live=True)
+    expected = process(recording, "temporal-basic", as_live=True)
+    assert_same(found, expected)
+    assert found.provenance["source"] == "run"
+    assert len(found.provenance["live"]["windows"]) == 1
+
+
 CSV = """time [s],dist [m],hgt [mm],acc [m/s^2]
 """
 MAP = """format = "floatref-map/1"

@@ -32,6 +32,9 @@ fr_status fr_high_pass_profile(const fr_high_pass_profile_config *config, const 
         status = FR_NULL_POINTER;
     if (status == FR_OK)
         status = fr_check_samples(elevation, count, FR_MISSING_REFUSED);
+    /* A wavelength of zero has no wave number. */
+    if (status == FR_OK && !fr_above_zero(config->wavelength_m))
+        status = FR_BAD_CONFIG;
     if (status != FR_OK)
         return status;
     pass.step = config->interval_m;

@@ -1,0 +1,71 @@
+"""Where a recording that is part of a longer one lies on that one's axis of distance.
+
+A part has the encoder's distance, from which slip was taken off since its own first sample alone. A
+`Place` moves it to where the parts before it ended, and puts its points on whole multiples of the
+interval, so that the points of all parts are those of one profile.
+"""
+
+from dataclasses import dataclass, replace
+from math import ceil
+
+import numpy as np
+
+from floatref.stages.signals import DISTANCE
+from floatref.values.recording import Channel, Recording
+
+TIE = 1e-9
+"""Share of an interval by which a distance may be beyond a point and still count as on it."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """The place of a part.
+
+    Attributes:
+        at_s: a time in s within the part.
+        offset_m: distance along the axis at that time, minus the encoder's, in m.
+    """
+
+    at_s: float
+    offset_m: float = 0.0
+
+    def move(self, recorded: Recording, corrected: Recording) -> Recording:
+        """Return ``corrected`` with every distance moved to its place.
+
+        ``recorded`` is the same recording before its distances were corrected.
+        """
+        moved_m = self.offset_m - offset_at(recorded, corrected, self.at_s)
+        if moved_m == 0.0:
+            return corrected
+        channels = tuple(
+            replace(c, values=c.values + moved_m) if c.id.name == DISTANCE else c
+            for c in corrected.channels
+        )
+        return replace(corrected, channels=channels)
+
+
+def first_point(distance_m: float, interval_m: float) -> float:
+    """Return the first multiple of ``interval_m`` that is not before ``distance_m``, in m."""
+    return point_number(distance_m, interval_m) * interval_m
+
+
+def point_number(distance_m: float, interval_m: float) -> int:
+    """Return the number of that point, counted from the origin of the axis."""
+    return ceil(distance_m / interval_m - TIE)
+
+
+def offset_at(recorded: Recording, corrected: Recording, at_s: float) -> float:
+    """Return by how many m the distance of ``corrected`` is ahead of the encoder's at a time.
+
+    It is exactly zero where nothing was corrected.
+    """
+    return distance_at(corrected, at_s) - distance_at(recorded, at_s)
+
+
+def distance_at(recording: Recording, at_s: float) -> float:
+    """Return the distance in m at a time in s, linear between known samples; NaN without any."""
+    channel: Channel = recording.channel(DISTANCE, recording.tracks[0])
+    known = ~np.isnan(channel.values)
+    if not known.any():
+        return float("nan")
+    return float(np.interp(at_s, channel.times_s[known], channel.values[known]))

@@ -1,0 +1,222 @@
+"""A stream: samples are pushed while the vehicle drives, and a thread makes points of them."""
+
+from collections import deque
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from threading import Condition, Thread
+from types import TracebackType
+from typing import Any
+
+from floatref.engine.choosing import AUTO
+from floatref.errors import StageError
+from floatref.live.bounds import LATE_S, Latency
+from floatref.live.declared_channels import Declared, Entrance, Piece, Samples, read_declarations
+from floatref.live.following import Following
+from floatref.live.points import LivePoints
+from floatref.live.saved_state import load_state, save_state
+from floatref.live.starting import settle
+from floatref.values.channels import ChannelId
+from floatref.values.recording import Setup
+
+WAITING = 1 << 23
+"""Most samples that wait for the thread: 64 MB; a push of more waits until all others are done."""
+Pieces = Mapping[ChannelId, Piece]
+
+
+class LiveStream:
+    """Takes samples and gives out points; `start_stream` makes one.
+
+    One thread pushes and reads; the work is done in another one. `finish` or `close` ends it, and
+    so does the end of a ``with`` statement.
+    """
+
+    def __init__(self, following: Following, entrance: Entrance) -> None:
+        """Start the thread that works on ``following``."""
+        self._following, self._entrance = following, entrance
+        self._changed = Condition()
+        self._queue: deque[Pieces | None] = deque()
+        self._waiting = 0
+        self._busy = False
+        self._stopped = self._finished = False
+        self._error: BaseException | None = None
+        self._points: list[LivePoints] = []
+        self._thread = Thread(target=self._work, name="floatref-live", daemon=True)
+        self._thread.start()
+
+    @property
+    def pipelines(self) -> tuple[str, ...]:
+        """Names of the pipelines: the one that is taken, then those where it refuses a window."""
+        return self._following.order.pipelines
+
+    @property
+    def latency(self) -> Latency:
+        """When points are final, and provisional ones there."""
+        return self._following.latency
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it takes samples."""
+        return not (self._finished or self._stopped)
+
+    def push(self, samples: Mapping[Any, Samples]) -> None:
+        """Take the next samples of some channels, by name, such as "left.height".
+
+        A channel with a rate has its samples, shape (N,), in SI units, NaN for missing ones; one
+        without has (times in s, samples). Each channel has its own order, and may be late. Samples
+        are copied. It waits while too many samples are in the queue.
+
+        Raises InputError for samples that cannot be used, and then takes no sample of the push;
+        StageError after `finish` or `close`; and any error of the thread.
+        """
+        self._check_open("push")
+        pieces = self._entrance.check(samples)
+        count = sum(piece.values.size for piece in pieces.values())
+        with self._changed:
+            self._changed.wait_for(lambda: self._fits(count) or self._error is not None)
+            self._raise_error()
+            self._queue.append(pieces)
+            self._waiting += count
+            self._changed.notify_all()
+
+    def ready(self, wait: bool = False) -> list[LivePoints]:
+        """Return the points made since the last call, in order; with ``wait``, of all pushes.
+
+        Raises any error of the thread.
+        """
+        with self._changed:
+            if wait:
+                self._changed.wait_for(self._is_idle)
+            self._raise_error()
+            points, self._points = self._points, []
+        return points
+
+    def finish(self) -> list[LivePoints]:
+        """End the run: return what `ready` would, and the points of the last window.
+
+        Raises StageError the second time; any error of the thread; InputError if the pipeline has
+        refused every window.
+        """
+        self._check_open("finish")
+        with self._changed:
+            self._queue.append(None)
+            self._finished = True
+            self._changed.notify_all()
+        self._thread.join()
+        return self.ready()
+
+    def save(self, path: Path | str) -> None:
+        """Write to ``path``, a file, what the final points of all further pushes depend on.
+
+        It waits for the thread. Points that are ready are not in it: read them before. A stream
+        that `resume_stream` makes of it gives the same final points, bit for bit.
+
+        Raises StageError after the end; any error of the thread; InputError if it cannot write.
+        """
+        self._check_open("save")
+        with self._changed:
+            self._changed.wait_for(self._is_idle)
+            self._raise_error()
+            save_state(Path(path), self._following, self._entrance)
+
+    def close(self) -> None:
+        """End the thread; what is not final is lost. Does nothing after `finish`."""
+        with self._changed:
+            self._stopped = True
+            self._queue.clear()
+            self._changed.notify_all()
+        self._thread.join()
+
+    def __enter__(self) -> "LiveStream":
+        """Use the stream; it is closed at the end."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        at: TracebackType | None,
+    ) -> None:
+        """Close it."""
+        self.close()
+
+    def _fits(self, count: int) -> bool:
+        return not self._waiting or self._waiting + count <= WAITING
+
+    def _is_idle(self) -> bool:
+        return self._error is not None or not (self._queue or self._busy)
+
+    def _check_open(self, call: str) -> None:
+        with self._changed:
+            self._raise_error()
+        if not self.is_open:
+            raise StageError(f"{call}: the stream has ended; start another one")
+
+    def _raise_error(self) -> None:
+        if self._error is not None:
+            raise self._error
+
+    def _work(self) -> None:
+        try:
+            while self._work_once():
+                pass
+        except BaseException as error:
+            with self._changed:
+                self._error = error
+                self._queue.clear()
+        with self._changed:
+            self._busy = False
+            self._changed.notify_all()
+
+    def _work_once(self) -> bool:
+        """Process what was pushed next; return whether there is more to come."""
+        with self._changed:
+            self._busy = False
+            self._changed.notify_all()
+            self._changed.wait_for(lambda: self._queue or self._stopped)
+            if self._stopped:
+                return False
+            pieces, self._busy = self._queue.popleft(), True
+        for points in self._process(pieces):
+            with self._changed:
+                self._points.append(points)
+        return pieces is not None
+
+    def _process(self, pieces: Pieces | None) -> Iterator[LivePoints]:
+        if pieces is None:
+            yield from self._following.finish()
+            return
+        yield from self._following.push(pieces)
+        with self._changed:
+            self._waiting -= sum(piece.values.size for piece in pieces.values())
+
+
+def start_stream(
+    setup: Setup,
+    channels: Mapping[Any, Declared],
+    pipeline: str = AUTO,
+    settings: Mapping[str, Any] | None = None,
+    late_s: float = LATE_S,
+    provisional: bool = True,
+) -> LiveStream:
+    """Return a stream for a vehicle with this ``setup``.
+
+    ``channels`` holds the clock of each channel by its name, such as "left.height": a rate in Hz
+    whose first sample is at 0 s, a `UniformClock`, or None for samples that come with their times.
+    ``auto`` takes the pipeline that bears most, of those that have their channels. A channel that
+    is ``late_s`` behind another counts as missing for that time. Without ``provisional`` points,
+    there are final ones alone.
+
+    Raises InputError for channels, a pipeline or settings that cannot be used.
+    """
+    clocks = read_declarations(channels)
+    order = settle(setup, clocks, pipeline, settings, late_s)
+    return LiveStream(Following(order, provisional), Entrance(clocks))
+
+
+def resume_stream(path: Path | str) -> LiveStream:
+    """Return the stream that was saved in ``path``; push to it what that one was not given.
+
+    Provisional points begin anew, and are not valid before the vehicle has gone a wavelength.
+    Raises InputError for a file that is no saved stream, or of another version of floatref.
+    """
+    return LiveStream(*load_state(Path(path)))
