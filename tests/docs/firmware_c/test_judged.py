@@ -63,3 +63,11 @@ def test_a_fault_fails_a_check_that_the_readme_names(build, fault, check):
     code, said = judged(build("firmware", f"BROKEN={fault}"), check)
     assert f"\n{check}: fail" in said
     assert code == 1
+
+
+def test_with_the_road_prior_the_judge_passes_its_stops(build):
+    """Exit code 4: both checks passed, and the others were not run."""
+    code, said = judged(build("firmware", "STAGE=road_prior"), "stop", "near-stop")
+    assert "\nstop: pass" in said
+    assert "\nnear-stop: pass" in said
+    assert code == 4
