@@ -155,7 +155,7 @@ int main(int argc, char **argv)
             failed++;
         }
     }
-    printf("%d passed, %d failed, %d of stages that the library does not have\n", passed, failed,
+    printf("%d passed, %d failed, %d of stages that it does not replay\n", passed, failed,
            others);
     return failed == 0 && passed > 0 ? 0 : 1;
 }
