@@ -1,10 +1,16 @@
-"""The golden program of the firmware example passes all vectors, in double and single precision."""
+"""The golden program of the firmware example passes all vectors of stages that one call replays.
+
+Those of the two smoothers are replayed by the tests of the library alone.
+"""
 
 import subprocess
 
 import pytest
 
 from floatref_conformance import golden
+
+
+SMOOTHERS = {"kalman-smoother", "road-prior-smoother"}
 
 
 def replayed(program, folder):
@@ -14,11 +20,12 @@ def replayed(program, folder):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("real", ["double", "float"])
-def test_the_program_passes_every_golden_vector(build, real, tmp_path):
+def test_the_program_passes_every_vector_but_those_of_the_smoothers(build, real, tmp_path):
     golden.copy_to(tmp_path)
     code, said = replayed(build("golden", f"REAL={real}"), tmp_path)
     assert code == 0, said
-    assert said.count("pass  ") == len(golden.names())
+    assert set(golden.names()) > SMOOTHERS
+    assert said.count("pass  ") == len(golden.names()) - len(SMOOTHERS)
     assert "FAIL" not in said
 
 

@@ -99,8 +99,10 @@ void fr_wave_numbers(const fr_real *speed, fr_real largest, size_t count, fr_rea
 static int far_within(const fr_schedule *schedule, const fr_tangent *tangent, const fr_real *speed,
                       size_t count)
 {
-    fr_real half = FR_R(0.49), most = half / (schedule->per_metre * tangent->step);
-    return schedule->low_speed * tangent->step < half && fr_all_within(speed, count, most);
+    fr_real half = FR_R(0.49), scale = schedule->per_metre * tangent->step;
+    /* In float the product of two small settings may be too small for a number. */
+    return schedule->low_speed * tangent->step < half && scale > 0 &&
+           fr_all_within(speed, count, half / scale);
 }
 
 fr_status fr_check_speeds(const fr_schedule *schedule, const fr_tangent *tangent,

@@ -43,7 +43,8 @@ fr_status fr_check_cutoffs(const fr_tangent *tangent, const fr_real *cutoff, siz
     int wrong = 0;
     if (count > 0u && cutoff == NULL)
         return FR_NULL_POINTER;
-    if (count <= FR_MOST_SAMPLES && fr_all_within(cutoff, count, FR_R(0.49) / step))
+    /* In float a step may be too small for a number. */
+    if (count <= FR_MOST_SAMPLES && step > 0 && fr_all_within(cutoff, count, FR_R(0.49) / step))
         return FR_OK;
     status = fr_check_samples(cutoff, count, missing);
     for (size_t i = 0; status == FR_OK && i < count; i++)
