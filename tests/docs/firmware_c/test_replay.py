@@ -9,7 +9,6 @@ import pytest
 
 from floatref_conformance import golden
 
-
 SMOOTHERS = {"kalman-smoother", "road-prior-smoother"}
 
 
