@@ -43,7 +43,7 @@ def runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        (["runs"], "Missing option '--out'"),
+        (["runs"], "Missing option '-o' / '--out'"),
         (["--out", "out"], "Missing argument 'IN...'"),
         (["runs", "--out", "out", "--jobs", "0"], "0 is not in the range"),
         (
