@@ -142,7 +142,7 @@ def test_the_golden_vectors_are_clean_under_the_sanitizers(compiler):
     ).stdout.strip()
     if not Path(found).is_file():
         pytest.skip(f"{compiler} has no address sanitizer")
-    # As a worker, it would take a library that another session has built beside it.
+    # As a worker, it would take a library that another run of pytest has built.
     own = {name: value for name, value in os.environ.items() if "XDIST" not in name}
     environment = {
         **own,
