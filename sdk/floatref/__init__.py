@@ -39,13 +39,13 @@ if TYPE_CHECKING:
     from floatref.estimators.kalman import Noise as Noise
     from floatref.estimators.kalman import Plan as Plan
     from floatref.estimators.road_prior import RoadPrior as RoadPrior
-    from floatref.files import begin_of as begin_of
     from floatref.files import check_file as check_file
     from floatref.files import map_bytes as map_bytes
     from floatref.files import open_bytes as open_bytes
     from floatref.files import read_bytes as read_bytes
     from floatref.files import read_profile as read_profile
     from floatref.files import read_recording as read_recording
+    from floatref.files import read_start as read_start
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
@@ -186,7 +186,7 @@ _PUBLIC = {
     "ZHU_HALF_CAR": "vehicle_response",
     "agreement": "measures",
     "answers": "interfaces.markers",
-    "begin_of": "files",
+    "read_start": "files",
     "c_sources": "c.c_sources",
     "channel_noise": "measures",
     "check_file": "files",

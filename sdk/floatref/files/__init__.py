@@ -10,10 +10,9 @@ from floatref.files.profile_csv import write_profile_csv
 from floatref.files.profile_directory import read_profile, write_profile
 from floatref.files.recording_directory import read_recording, write_recording
 from floatref.files.schema import read_schema
-from floatref.files.sources import begin_of, check_file, open_bytes, read_bytes
+from floatref.files.sources import check_file, open_bytes, read_bytes, read_start
 
 __all__ = [
-    "begin_of",
     "check_file",
     "fingerprint",
     "fingerprint_native",
@@ -23,6 +22,7 @@ __all__ = [
     "read_profile",
     "read_recording",
     "read_schema",
+    "read_start",
     "write_profile",
     "write_profile_csv",
     "write_recording",

@@ -104,7 +104,9 @@ def _cover(number: int) -> None:
     """Put zeros where a mapped file has lost pages, and have CutFile raised in this thread."""
     library = _state.library
     assert library is not None
-    if not any([_replace_lost(library, one) for one in _state.watched]):
+    # Each of them: several may have been cut at once.
+    lost = [_replace_lost(library, one) for one in _state.watched]
+    if not any(lost):
         # Not ours: the read is repeated, and the system does what it does about it.
         library.signal(number, None)
         return

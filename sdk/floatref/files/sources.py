@@ -22,32 +22,34 @@ if TYPE_CHECKING:
 
 FLAGS = os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0)
 FLAGS |= getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
+NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 BUFFER = 1 << 16
 """Bytes that a reader asks of the operating system at once."""
 
 
 @contextmanager
-def open_bytes(path: Path) -> Iterator[BufferedReader]:
+def open_bytes(path: Path, links: bool = True) -> Iterator[BufferedReader]:
     """Open the regular file ``path`` for reading the bytes that it has now.
 
     What is appended while it is read is left out; of /proc, where files have no length, nothing is
-    read. Raises InputError naming ``path`` if it is missing, a folder, a device, a pipe, a socket,
-    a loop of links, or may not be read.
+    read. Without ``links`` a symbolic link is refused: another may have put it there. Raises
+    InputError naming ``path`` if it is missing, a folder, a device, a pipe, a socket, a loop of
+    links, or may not be read.
     """
     with _refusals(path):
         # Opening a device can do something to it already.
         _check_kind(path, os.stat(path).st_mode)
-        stream = BufferedReader(_open_file(path), BUFFER)
+        stream = BufferedReader(_open_file(path, 0 if links else NO_LINK), BUFFER)
     with stream:
         yield stream
 
 
-def read_bytes(path: Path, most_bytes: int, what: str) -> bytes:
+def read_bytes(path: Path, most_bytes: int, what: str, links: bool = True) -> bytes:
     """Return the content of the file ``path``; InputError as `open_bytes` does, and if longer.
 
     ``what`` is the expected kind of file, such as "list of waivers".
     """
-    with open_bytes(path) as stream, _refusals(path):
+    with open_bytes(path, links) as stream:
         content = stream.read(most_bytes + 1)
     if len(content) > most_bytes:
         raise InputError(f"{path}: larger than any {what}, {most_bytes >> 10} KiB; name another")
@@ -67,7 +69,7 @@ def check_source(path: Path) -> Path:
     return path if folder else check_file(path)
 
 
-def begin_of(path: Path, size: int) -> bytes:
+def read_start(path: Path, size: int) -> bytes:
     """Return the first ``size`` bytes of the file ``path``; b"" if it cannot be opened."""
     try:
         with open_bytes(path) as stream:
@@ -120,8 +122,8 @@ class _Measured(io.FileIO):
         return max(self._size - self.tell(), 0)
 
 
-def _open_file(path: Path) -> _Measured:
-    handle = os.open(path, FLAGS)
+def _open_file(path: Path, more_flags: int) -> _Measured:
+    handle = os.open(path, FLAGS | more_flags)
     try:
         # Another thing may have taken the place of the file since it was inspected.
         _check_kind(path, os.fstat(handle).st_mode)

@@ -7,11 +7,11 @@ so that one which was cut short still gives its whole batches.
 import mmap
 import struct
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from floatref import InputError
+from floatref import InputError, map_bytes
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.row_pieces import MOST_ROWS, count_piece_rows
 
@@ -92,14 +92,11 @@ class IpcSource:
     @contextmanager
     def _map_bytes(self) -> Iterator[tuple[Any, mmap.mmap]]:
         """Yield the bytes of the stream, and the map that they are seen through."""
-        with self._path.open("rb") as stream:
-            mapped = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)
-        try:
-            yield self._arrow.py_buffer(mapped).slice(8 if mapped[:6] == MAGIC else 0), mapped
-        finally:
-            # Arrays that are still in use keep the map open until they are gone.
-            with suppress(BufferError):
-                mapped.close()
+        content = map_bytes(self._path)
+        mapped = content.base
+        assert isinstance(mapped, mmap.mmap)
+        # Arrays that are still in use keep the map open until they are gone.
+        yield self._arrow.py_buffer(content).slice(8 if mapped[:6] == MAGIC else 0), mapped
 
 
 def _let_go(mapped: mmap.mmap) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from floatref import check_file
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.row_pieces import count_piece_rows
 
@@ -40,5 +41,8 @@ class ParquetSource:
 
     def _open(self) -> Any:
         return library("pyarrow.parquet", "reading Parquet").ParquetFile(
-            self._path, buffer_size=BUFFER, pre_buffer=False, page_checksum_verification=True
+            check_file(self._path),
+            buffer_size=BUFFER,
+            pre_buffer=False,
+            page_checksum_verification=True,
         )

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import InputError, Profile, ProfileTrack
+from floatref import InputError, Profile, ProfileTrack, check_file
 from floatref_adapters.formats.arrow.parquet_footer import FORMAT, begins_as_parquet, holds_profile
 from floatref_adapters.shared.profile_columns import (
     DISTANCE,
@@ -58,7 +58,7 @@ class ParquetProfile:
         if not path.is_file():
             raise InputError(f"{path}: not a file; give a Parquet file")
         arrow, parquet = _libraries(f"{path}: reading Parquet")
-        with _explain(path, arrow), parquet.ParquetFile(path) as file:
+        with _explain(path, arrow), parquet.ParquetFile(check_file(path)) as file:
             return _profile(file)
 
     def write(self, profile: Profile, path: Path) -> None:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import InputError, Profile, ProfileTrack
+from floatref import InputError, Profile, ProfileTrack, open_bytes, read_start
 from floatref_adapters.formats.erd.erd_header import (
     BYTE_ORDER_MARK,
     LONGEST_HEADER,
@@ -24,6 +24,7 @@ from floatref_adapters.shared.length_units import (
     to_metres,
 )
 from floatref_adapters.shared.numbered_names import number_repeats
+from floatref_adapters.shared.refusals import prefix_errors
 
 NO_ELEVATIONS = ("distance", "station", "chainage", "milepost")
 """What a channel in a unit of length may be and is no elevation."""
@@ -47,10 +48,7 @@ class Erd:
 
     def recognises(self, path: Path) -> bool:
         """Tell whether the first line of ``path`` is that of an ERD file."""
-        if not path.is_file():
-            return False
-        with path.open("rb") as stream:
-            start = stream.read(len(BYTE_ORDER_MARK) + len(MARK))
+        start = read_start(path, len(BYTE_ORDER_MARK) + len(MARK))
         return start.removeprefix(BYTE_ORDER_MARK).startswith(MARK)
 
     def read(self, path: Path) -> Profile:
@@ -61,13 +59,12 @@ class Erd:
         """
         if not path.is_file():
             raise InputError(f"{path}: not a file; give an ERD file")
-        try:
-            with path.open("rb") as stream:
-                header = parse_header(stream.read(LONGEST_HEADER))
-                unit = _step_unit(header)
-                found, left_out = _elevations(header)
-                wanted = [i for e in found for i in (e.channel, e.valid) if i is not None]
-                numbers = read_numbers(header, path, stream, wanted)
+        with prefix_errors(path), open_bytes(path) as stream:
+            header = parse_header(stream.read(LONGEST_HEADER))
+            unit = _step_unit(header)
+            found, left_out = _elevations(header)
+            wanted = [i for e in found for i in (e.channel, e.valid) if i is not None]
+            numbers = read_numbers(header, path, stream, wanted)
             columns = dict(zip(wanted, numbers.T, strict=True))
             return Profile(
                 interval_m=to_metres(header.step, unit),
@@ -76,10 +73,6 @@ class Erd:
                 pipeline=_pipeline(header),
                 provenance=_provenance(header, left_out),
             )
-        except InputError as error:
-            raise InputError(f"{path}: {error}") from error
-        except OSError as error:
-            raise InputError(f"{path}: {error.strerror or error}; make it readable") from error
 
     def write(self, profile: Profile, path: Path) -> None:
         """Write ``profile`` as text; InputError if a track has no elevation, or one too high."""

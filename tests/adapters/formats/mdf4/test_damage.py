@@ -138,7 +138,7 @@ def test_what_is_no_mdf_4_is_refused_in_one_line(tmp_path: Path) -> None:
         assert Mdf4().recognises(path) == (start[:3] == b"MDF")
         assert "not an MDF file" in refused(path)
     assert not Mdf4().recognises(tmp_path / "none.mf4")
-    assert "make it readable" in refused(tmp_path / "none.mf4")
+    assert "check the name" in refused(tmp_path / "none.mf4")
 
 
 def test_without_asammdf_one_line_says_what_to_install(

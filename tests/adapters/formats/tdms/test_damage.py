@@ -62,7 +62,7 @@ def test_what_is_no_tdms_is_refused_in_one_line(tmp_path: Path) -> None:
         assert Tdms().recognises(path) == (start[:4] == b"TDSm")
         refused(path)
     assert not Tdms().recognises(tmp_path / "none.tdms")
-    assert "make it readable" in refused(tmp_path / "none.tdms")
+    assert "check the name" in refused(tmp_path / "none.tdms")
 
 
 def test_without_nptdms_one_line_says_what_to_install(
