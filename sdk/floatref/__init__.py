@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from floatref.files import read_profile as read_profile
     from floatref.files import read_recording as read_recording
     from floatref.files import read_start as read_start
+    from floatref.files import real_path as real_path
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
@@ -187,6 +188,7 @@ _PUBLIC = {
     "agreement": "measures",
     "answers": "interfaces.markers",
     "read_start": "files",
+    "real_path": "files",
     "c_sources": "c.c_sources",
     "channel_noise": "measures",
     "check_file": "files",

@@ -10,7 +10,7 @@ from floatref.files.profile_csv import write_profile_csv
 from floatref.files.profile_directory import read_profile, write_profile
 from floatref.files.recording_directory import read_recording, write_recording
 from floatref.files.schema import read_schema
-from floatref.files.sources import check_file, open_bytes, read_bytes, read_start
+from floatref.files.sources import check_file, open_bytes, read_bytes, read_start, real_path
 
 __all__ = [
     "check_file",
@@ -23,6 +23,7 @@ __all__ = [
     "read_recording",
     "read_schema",
     "read_start",
+    "real_path",
     "write_profile",
     "write_profile_csv",
     "write_recording",

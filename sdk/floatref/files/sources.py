@@ -78,6 +78,14 @@ def read_start(path: Path, size: int) -> bytes:
         return b""
 
 
+def real_path(path: Path) -> Path:
+    """Return ``path`` without links and from the root, as far as it exists.
+
+    `Path.resolve` raises RuntimeError for a loop of links; this leaves it to what opens it.
+    """
+    return Path(os.path.realpath(path))
+
+
 def document_path(path: Path, name: str) -> Path:
     """Return the file ``name`` inside ``path`` if that is a folder, else ``path`` itself."""
     path = Path(path)
