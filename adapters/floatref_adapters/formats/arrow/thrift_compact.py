@@ -30,7 +30,7 @@ class Compact:
         number = 0
         while head := self._byte():
             step, kind = head >> 4, head & 15
-            number = number + step if step else self._integer()
+            number = number + step if step else self.integer()
             fields[number] = self._value(kind, depth)
         return fields
 
@@ -38,7 +38,7 @@ class Compact:
         if kind in (TRUE, FALSE):
             return kind == TRUE
         if kind in INTEGERS:
-            return self._integer()
+            return self.integer()
         if kind == STRUCT:
             return self.struct(depth + 1)
         if kind in (LIST, SET):
@@ -72,6 +72,7 @@ class Compact:
                 return value
         raise KeyError(value)
 
-    def _integer(self) -> int:
+    def integer(self) -> int:
+        """Return the next integer, which may be negative."""
         raw = self._unsigned()
         return (raw >> 1) ^ -(raw & 1)

@@ -16,7 +16,14 @@ from floatref_adapters.formats.erd.erd_header import (
     parse_header,
 )
 from floatref_adapters.formats.erd.erd_numbers import read_numbers
-from floatref_adapters.formats.erd.erd_writing import ELEVATION, FORMAT, PIPELINE, VALID, write_erd
+from floatref_adapters.formats.erd.erd_writing import (
+    ELEVATION,
+    FORMAT,
+    HIGHEST_M,
+    PIPELINE,
+    VALID,
+    write_erd,
+)
 from floatref_adapters.shared.length_units import (
     WHEEL_PATHS,
     Ratio,
@@ -147,6 +154,12 @@ def _wheel_path(channel: ErdChannel, index: int) -> str:
 
 def _track(elevation: Elevation, columns: dict[int, NDArray[np.float64]]) -> ProfileTrack:
     values = to_metres(columns[elevation.channel], elevation.unit)
+    highest = float(np.nanmax(np.abs(values), initial=0.0))
+    if highest > HIGHEST_M:
+        raise InputError(
+            f"track {elevation.track}: an elevation of {highest:g} m; a road has at most "
+            f"{HIGHEST_M:g} m, correct the unit or the value"
+        )
     valid = None if elevation.valid is None else columns[elevation.valid]
     if valid is not None and not np.isin(valid, (0.0, 1.0)).all():
         bad = valid[~np.isin(valid, (0.0, 1.0))][0]

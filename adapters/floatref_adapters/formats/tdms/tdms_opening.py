@@ -105,3 +105,5 @@ def _read_leads(file: BinaryIO) -> Iterator[tuple[int, int, int, int, bool]]:
             raise InputError(f"more than {MOST_SEGMENTS} segments; defragment the file")
     if not size >= LEAD_IN:
         raise InputError("not a TDMS file; copy the complete file")
+    if not segments:
+        raise InputError("cut off before the first value of its first segment; copy it again")
