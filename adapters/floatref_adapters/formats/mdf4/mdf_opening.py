@@ -53,7 +53,11 @@ def open_mdf(source: Path) -> OpenedMdf:
     MDF = library("asammdf", "reading MDF4").MDF
     with ExitStack() as stack:
         stream: Any = stack.enter_context(open_bytes(source))
-        unfinished = _check(stream, stream.seek(0, 2))
+        try:
+            unfinished = _check(stream, stream.seek(0, 2))
+        except OSError as error:
+            # An address beyond what any file can have.
+            raise InputError(f"{first_line(error)}; the file is damaged, copy it again") from error
         folder = Path(stack.enter_context(TemporaryDirectory(prefix="floatref-")))
         records = folder / "records.mf4" if unfinished else source
         if unfinished:
