@@ -1,4 +1,4 @@
-"""A mapped file that is cut short while it is read is an InputError, and nothing is made of zeros."""
+"""A mapped file that is cut short while it is read is an InputError; no result is made of zeros."""
 
 import os
 import subprocess
