@@ -79,8 +79,8 @@ WRITTEN = {
     "floatref tune --plot": "tune {run} --reference {profile} --out {out}.json --plot {x}.png",
     "floatref vehicle --out": "vehicle {profile} --out {x}",
     "conformance run --report": "run --check stop --report {x}",
-    "conformance simulate --out": "simulate stop --out {x}",
-    "conformance simulate --truth": "simulate stop --out {out} --truth {x}",
+    "conformance simulate --out": "simulate const_16 --out {x}",
+    "conformance simulate --truth": "simulate const_16 --out {out} --truth {x}",
     "conformance sample --out": "sample --out {x} network",
     "conformance export --out": "export --out {x}",
     "conformance certify --report": "certify {profile} --reference {profile} --report {x}",
@@ -104,7 +104,7 @@ def named_places() -> Iterator[str]:
                     yield f"{program} {name} {_name(parameter)}"
 
 
-def _is_tuple_of_paths(kind: click.ParamType) -> bool:
+def _is_tuple_of_paths(kind: object) -> bool:
     types = getattr(kind, "types", ())
     return any(isinstance(each, click.Path) for each in types)
 

@@ -76,6 +76,20 @@ def test_what_is_no_file_is_refused_in_one_line(
     assert sorted(path.name for path in tmp_path.iterdir()) == [hostile.name]
 
 
+@pytest.mark.parametrize("key", WRITTEN)
+def test_a_target_that_is_no_file_is_refused_in_one_line(
+    tmp_path: Path, sound: dict[str, Path], key: str
+) -> None:
+    hostile = tmp_path / f"hostile{suffix_in(WRITTEN[key])}"
+    KINDS["pipe"](hostile)
+    words = words_of(key, WRITTEN[key], tmp_path / "hostile", sound)
+    ended = CliRunner().invoke(judge if words[0] == "conformance" else floatref, words[1:])
+    assert ended.exit_code == 2, ended.output
+    assert str(hostile) in ended.output
+    assert not any(trace in ended.output for trace in TRACES)
+    assert sorted(path.name for path in tmp_path.iterdir()) == [hostile.name]
+
+
 @pytest.mark.parametrize("kind", ["pipe", "loop"])
 def test_a_case_that_a_device_planted_is_refused(tmp_path: Path, kind: str) -> None:
     """`conformance run --report` replays the cases of the folder, where devices can write."""

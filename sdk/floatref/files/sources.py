@@ -13,12 +13,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BufferedReader
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from floatref.errors import InputError, one_line
-
-if TYPE_CHECKING:
-    from _typeshed import WriteableBuffer
 
 FLAGS = os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0)
 FLAGS |= getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0)
@@ -39,7 +36,8 @@ def open_bytes(path: Path, links: bool = True) -> Iterator[BufferedReader]:
     with _refusals(path):
         # Opening a device can do something to it already.
         _check_kind(path, os.stat(path).st_mode)
-        stream = BufferedReader(_open_file(path, 0 if links else NO_LINK), BUFFER)
+        raw = _open_file(path, 0 if links else NO_LINK)
+        stream: BufferedReader = BufferedReader(raw, BUFFER)
     with stream:
         yield stream
 
@@ -113,7 +111,7 @@ class _Measured(io.FileIO):
         super().__init__(handle, "rb")
         self._path, self._size = path, os.fstat(handle).st_size
 
-    def readinto(self, buffer: "WriteableBuffer") -> int | None:
+    def readinto(self, buffer: Any) -> int | None:
         """Read into ``buffer`` what is left; return the number of bytes, 0 at the end."""
         with memoryview(buffer).cast("B") as view, _refusals(self._path):
             return super().readinto(view[: self._left()])
