@@ -199,8 +199,8 @@ fr_status fr_level_finish(fr_level *level, size_t *ready)
 fr_status fr_level_take(fr_level *level, fr_level_bin *bins, size_t capacity, size_t *written)
 {
     lv_arrays a;
-    fr_status status = fr_ready(level, LEVEL_MAGIC);
-    if (status != FR_OK && !(status == FR_WRONG_ORDER))
+    fr_status status = fr_readable(level, LEVEL_MAGIC);
+    if (status != FR_OK)
         return status;
     if (written == NULL || (capacity > 0u && bins == NULL))
         return FR_NULL_POINTER;

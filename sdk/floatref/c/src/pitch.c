@@ -210,8 +210,8 @@ fr_status fr_pitch_finish(fr_pitch *pitch, size_t *ready)
 fr_status fr_pitch_take(fr_pitch *pitch, double *sin_pitch, size_t capacity, size_t *written)
 {
     pt_arrays a;
-    fr_status status = fr_ready(pitch, PITCH_MAGIC);
-    if (status != FR_OK && status != FR_WRONG_ORDER)
+    fr_status status = fr_readable(pitch, PITCH_MAGIC);
+    if (status != FR_OK)
         return status;
     if (written == NULL || (capacity > 0u && sin_pitch == NULL))
         return FR_NULL_POINTER;
