@@ -49,12 +49,13 @@ static void add_axle(pt_car *car, int32_t axle, double x, double inertia)
 /* The accelerometer is on the rigid body, `ahead` of its centre. */
 static void set_reading(pt_car *car, double ahead)
 {
-    const double *heave = car->dynamics + PT_BODY * PT_STATES, *nod = heave + PT_STATES;
-    const double *by_heave = car->inputs + PT_BODY * PT_INPUTS, *by_nod = by_heave + PT_INPUTS;
+    int32_t heave = PT_BODY, nod = PT_BODY + 1;
     for (int32_t j = 0; j < PT_STATES; j++)
-        car->reading[j] = heave[j] + ahead * nod[j];
+        car->reading[j] = car->dynamics[heave * PT_STATES + j] +
+                          ahead * car->dynamics[nod * PT_STATES + j];
     for (int32_t j = 0; j < PT_INPUTS; j++)
-        car->direct[j] = by_heave[j] + ahead * by_nod[j];
+        car->direct[j] =
+            car->inputs[heave * PT_INPUTS + j] + ahead * car->inputs[nod * PT_INPUTS + j];
 }
 
 void fr_pt_set_car(pt_car *car, const fr_pitch_config *config)
