@@ -18,6 +18,7 @@ from floatref.estimators.laser_place.half_car import Gains, HalfCar
 from floatref.values.channels import STANDARD_GRAVITY
 
 few = settings(deadline=None, max_examples=6)
+fewer = settings(deadline=None, max_examples=2)
 EPS = float(np.finfo(np.float64).eps)
 SHORT = {"window_s": 10.0, "shared_s": 5.0}
 IN_SDK = {"WINDOW_S": 10.0, "SHARED_S": 5.0}
@@ -54,7 +55,7 @@ def assert_same(found, run, stop, rate):
     return expected
 
 
-@few
+@fewer
 @given(stop=STOPS, rate=st.sampled_from([100, 160, 200, 250]))
 @example(stop=Stop(lever_m=0.3), rate=200)
 @example(stop=Stop(lever_m=-0.3, speed_mps=25.0), rate=20)
@@ -64,6 +65,7 @@ def test_the_pitch_is_that_of_the_sdk(double, stop, rate):
     assert np.abs(expected).max() > 1e-3
 
 
+@pytest.mark.slow
 @few
 @given(seed=st.integers(0, 2**32 - 1), share=st.sampled_from([0.02, 0.4, 0.7]))
 @example(seed=0, share=0.98)
@@ -96,6 +98,7 @@ def test_without_a_sensor_there_is_no_pitch(double, name):
     assert not found.any()
 
 
+@pytest.mark.slow
 @few
 @given(stop=STOPS, gone=st.integers(0, 900))
 @example(stop=Stop(lever_m=0.2, between_s=20.0), gone=0)
@@ -109,7 +112,7 @@ def test_windows_pass_into_each_other_as_in_the_sdk(double, stop, gone):
         assert_same(found, run, stop, 200)
 
 
-@pytest.mark.parametrize("bins", [0, 1, 63, 64, 500, 1000, 1500, 1501, 2000, 2500, 2501])
+@pytest.mark.parametrize("bins", [0, 1, 63, 64, 1500, 1501, 2501])
 def test_a_run_of_any_length_ends(double, bins):
     """Fewer than 64 bins have no pitch; with 1500 a window is complete, and 500 are shared."""
     stop = Stop(lever_m=0.2, between_s=20.0)
@@ -132,6 +135,7 @@ def test_a_bounce_test_has_no_pitch_that_could_be_known(double):
     assert not model(made_of(double, stop), Run(force, height, counts)).any()
 
 
+@pytest.mark.slow
 @few
 @given(cuts=st.lists(st.integers(0, 6000), max_size=5), at=st.integers(0, 6000))
 @example(cuts=[1, 2, 3], at=3001)
@@ -166,6 +170,7 @@ def test_what_is_ready_is_taken_in_pieces(double):
     assert take(made).size == 0
 
 
+@pytest.mark.slow
 @few
 @given(stop=STOPS)
 def test_in_single_precision_only_the_samples_are_rounded(single, double, stop):
