@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.sdk.c.level_runs import Run, push
 from tests.sdk.c.level_stops import Stop
-from tests.sdk.c.pitch.pitch_runs import finish, made_of, take
+from tests.sdk.c.pitch_runs import finish, made_of, take
 
 GOOD = Run(np.full((4000, 2), 9.8), np.full((4000, 2), 0.3), np.arange(4000) * 100)
 SHORT = {"window_s": 10.0, "shared_s": 5.0}

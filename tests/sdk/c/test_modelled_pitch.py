@@ -1,6 +1,7 @@
 """The modelled pitch in C is that of the SDK's `HeightByModel`, however the samples are pushed."""
 
 from dataclasses import replace
+from itertools import pairwise
 from unittest.mock import patch
 
 import numpy as np
@@ -10,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.linalg import solve_discrete_are
 from tests.sdk.c.level_runs import Run, copy_of, push, run_of
 from tests.sdk.c.level_stops import STOPS, Stop
-from tests.sdk.c.pitch.pitch_runs import finish, made_of, model, model_by_sdk, take
+from tests.sdk.c.pitch_runs import finish, made_of, model, model_by_sdk, take
 
 from floatref import AxleSetup
 from floatref.estimators.laser_place import half_car, pitching
@@ -147,7 +148,7 @@ def test_any_split_and_a_copy_give_the_same_bits(double, cuts, at):
     parts = model(made_of(double, stop, **SHORT), run, sorted({*edges, *cuts}))
     assert parts.tobytes() == whole.tobytes()
     made, first = made_of(double, stop, **SHORT), []
-    for begin, end in zip(edges, edges[1:], strict=False):
+    for begin, end in pairwise(edges):
         if begin < at:
             assert push(made, run, slice(begin, end))[0] == "FR_OK"
             first.append(take(made))
