@@ -27,6 +27,7 @@ class LiveRun:
 
     Attributes:
         complete: whether the profile is complete.
+        watch: who looks on.
     """
 
     def __init__(
@@ -42,7 +43,7 @@ class LiveRun:
         Raises InputError for a directory that holds no run to resume.
         """
         self._path, self._save_s, self._clock = path, save_s, clock
-        self._watch = watch or Watch()
+        self.watch = watch or Watch()
         self._directory: RunDirectory | None = None
         self._stream: LiveStream | None = None
         self._numbers = SampleNumbers({}, {})
@@ -70,7 +71,7 @@ class LiveRun:
             self._check_same(hello)
         assert self._stream is not None
         self._numbers.begin(from_start)
-        self._watch.started(self._stream)
+        self.watch.started(self._stream)
         yield answers.started(
             self._stream, self._stream.interval_m, self._stream.tracks, self._state()
         )
@@ -83,7 +84,7 @@ class LiveRun:
         for name, each in numbered.items():
             if each.missing:
                 text = describe_missing(name, each.missing, self._numbers)
-                self._watch.event(text)
+                self.watch.event(text)
                 yield answers.event(text)
         for pieces in fill(numbered, self._numbers.clocks):
             self._push(pieces)
@@ -174,7 +175,7 @@ class LiveRun:
         piece = samples.channels.get(self._distance)
         if piece is not None:
             self._odometer.add(piece, self._numbers.come[self._distance] - piece.values.size)
-        self._watch.took(self._odometer.see(counts))
+        self.watch.took(self._odometer.see(counts))
 
     def _save(self, points: list[LivePoints]) -> Iterator[Answer]:
         """Save the stream behind ``points`` and all that are ready, then give these out."""
@@ -189,7 +190,7 @@ class LiveRun:
 
     def _give(self, points: list[LivePoints]) -> Iterator[Answer]:
         for each in points:
-            self._watch.gave(each)
+            self.watch.gave(each)
             yield from answers.of_points(each)
 
     def _state(self) -> dict[str, Any]:

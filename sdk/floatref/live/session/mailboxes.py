@@ -5,7 +5,10 @@ answers, in a file if they are many: a peer that reads slowly, or only at the en
 keeps nobody waiting.
 """
 
+import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
+from math import inf
 from queue import Empty, Full, Queue
 from tempfile import SpooledTemporaryFile
 from threading import Condition, Event, Thread
@@ -62,10 +65,9 @@ class Inbox:
 
     def _put(self, item: Sent | BaseException | None) -> None:
         while not self._closed.is_set():
-            try:
-                return self._queue.put(item, timeout=PAUSE_S)
-            except Full:
-                continue
+            with suppress(Full):
+                self._queue.put(item, timeout=PAUSE_S)
+                break
 
 
 class Outbox:
@@ -99,9 +101,10 @@ class Outbox:
             self._ended = True
             self._changed.notify_all()
 
-    def drain(self) -> None:
-        """Wait, after `end`, until the reader has taken all, or is gone."""
-        while self._thread.is_alive():
+    def drain(self, limit_s: float | None) -> None:
+        """Wait, after `end`, until the reader has taken all or is gone, or for ``limit_s``."""
+        until_s = inf if limit_s is None else time.monotonic() + limit_s
+        while self._thread.is_alive() and time.monotonic() < until_s:
             self._thread.join(PAUSE_S)
 
     def _work(self) -> None:

@@ -1,4 +1,4 @@
-"""Where messages come from: standard input, or a file that grows while another program writes it."""
+"""Where messages come from: standard input, or a file that another program is writing."""
 
 import io
 import os
@@ -51,7 +51,8 @@ def standard_streams() -> Iterator[Peer]:
 def followed(path: Path) -> Iterator[Peer]:
     """Yield what writes the file ``path``; answers go to standard output."""
     with open_bytes(path) as stream:
-        growing = BufferedReader(GrowingFile(path, stream))
+        # A raw stream of our own is what `BufferedReader` documents to take.
+        growing: Any = BufferedReader(GrowingFile(path, stream))  # type: ignore[type-var]
         yield Peer(growing, write_to_output, str(path), from_start=True)
 
 

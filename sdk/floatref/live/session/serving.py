@@ -19,6 +19,8 @@ POLL_S = 0.1
 """Time in s between two looks for points that are ready."""
 HELLO_S = 30.0
 """Time in s within which the hello of a peer that connects has to come."""
+ENDING_S = 1.0
+"""Time in s that a peer has to read the answers after Ctrl-C; points are on the disk."""
 RESUME = "; what has come is saved, go on with --resume"
 
 
@@ -52,7 +54,12 @@ class Peer:
 
 
 class Serving:
-    """Serves ``run`` to ``peer``."""
+    """Serves ``run`` to ``peer``.
+
+    Attributes:
+        greeted: whether the peer was let in.
+        is_lost: whether it has gone before the end of the run.
+    """
 
     def __init__(self, run: LiveRun, peer: Peer) -> None:
         """Begin to read what the peer sends."""
@@ -62,7 +69,7 @@ class Serving:
         self._outbox = Outbox(peer.write)
         self._encoder: Encoder | None = None
         self._until_s = time.monotonic() + HELLO_S
-        self.greeted = False
+        self.greeted = self.is_lost = False
 
     def serve(self) -> None:
         """Return once the run is complete.
@@ -75,20 +82,23 @@ class Serving:
                 pass
         except InputError as error:
             self._save()
-            if not isinstance(error, PeerLost):
+            self.is_lost = isinstance(error, PeerLost)
+            if not self.is_lost:
                 self._answer([refused(error)])
+            self._end(str(error), None if self.greeted else HELLO_S)
             raise
-        except KeyboardInterrupt:
+        except BaseException as error:
             self._save()
+            self._end(str(error), ENDING_S)
             raise
-        finally:
-            self._inbox.close()
-            self._outbox.end(b"" if self._encoder is None else self._encoder.end())
-        self._outbox.drain()
+        self._end("complete", None)
 
-    def drain(self) -> None:
-        """Wait until the peer has read the answers, or is gone."""
-        self._outbox.drain()
+    def _end(self, text: str, limit_s: float | None) -> None:
+        """Wait until the peer has read the answers or is gone; for ``limit_s`` at most."""
+        self._run.watch.ended(text)
+        self._inbox.close()
+        self._outbox.end(b"" if self._encoder is None else self._encoder.end())
+        self._outbox.drain(limit_s)
 
     def _step(self) -> bool:
         """Take one message, if there is one; return whether the run is complete."""
