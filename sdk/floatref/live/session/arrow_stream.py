@@ -80,11 +80,16 @@ def schema_of(columns: dict[str, str], metadata: dict[bytes, bytes]) -> "pyarrow
 
 
 class Limited(io.RawIOBase):
-    """Reads a stream, and refuses to read too much at once."""
+    """Reads a stream, and refuses to read too much at once.
+
+    Attributes:
+        ended: whether there was less to read than was asked for.
+    """
 
     def __init__(self, stream: BufferedReader) -> None:
         """Read ``stream``."""
         self._stream = stream
+        self.ended = False
 
     def readable(self) -> bool:
         """Return that it can be read."""
@@ -96,7 +101,9 @@ class Limited(io.RawIOBase):
             raise InputError(
                 f"a part of {size} bytes; send at most {LARGEST_BYTES >> 20} MiB in each batch"
             )
-        return self._stream.read(size)
+        data = self._stream.read(size)
+        self.ended = len(data) < size
+        return data
 
 
 def read_arrow(stream: BufferedReader) -> Iterator[Sent]:
@@ -105,17 +112,20 @@ def read_arrow(stream: BufferedReader) -> Iterator[Sent]:
     Raises InputError naming schema or batch, row and field for what is no message.
     """
     pa = load_pyarrow()
-    where = "schema"
+    where, limited = "schema", Limited(stream)
     try:
-        reader = pa.ipc.open_stream(Limited(stream))
+        reader = pa.ipc.open_stream(limited)
         yield Sent(where, _read_hello(reader.schema))
         for number, batch in enumerate(reader, 1):
             where = f"batch {number}"
             with name_errors(where):
                 yield from (Sent(where, each) for each in _read_batch(batch))
-    except pa.ArrowInvalid as error:
-        if stream.peek(1):
-            raise InputError(f"behind {where}: no Arrow IPC ({error}); send a stream") from error
+    except (pa.ArrowInvalid, OSError) as error:
+        if limited.ended:
+            return
+        if not isinstance(error, pa.ArrowInvalid):
+            raise
+        raise InputError(f"behind {where}: no Arrow IPC ({error}); send a stream") from error
 
 
 def _read_hello(schema: "pyarrow.Schema") -> Message:

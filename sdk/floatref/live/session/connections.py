@@ -1,6 +1,7 @@
 """A port at which peers connect, one at a time, until the run is complete."""
 
 import socket
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from ipaddress import ip_address
@@ -13,6 +14,8 @@ from floatref.live.session.serving import Peer, Serving
 
 PAUSE_S = 0.2
 """Time in s between two looks for Ctrl-C while nobody connects."""
+PARTING_S = 2.0
+"""Longest time in s that a peer has to close its end."""
 KEEPALIVE = {"TCP_KEEPIDLE": 30, "TCP_KEEPINTVL": 10, "TCP_KEEPCNT": 3}
 """A host that vanishes is noticed after a minute; seconds, seconds and a count."""
 SHORTEST_TOKEN, LONGEST_TOKEN = 16, 1000
@@ -78,10 +81,29 @@ def _accept(server: socket.socket, token: str) -> Iterator[Peer]:
     with connection, connection.makefile("rb") as stream:
         connection.settimeout(None)
         _keep_alive(connection)
-        yield Peer(stream, connection.sendall, f"{address[0]}:{address[1]}", token, is_remote=True)
-        # Wakes the thread that still reads, which otherwise holds the lock of the stream.
-        with suppress(OSError):
-            connection.shutdown(socket.SHUT_RDWR)
+        try:
+            yield Peer(
+                stream, connection.sendall, f"{address[0]}:{address[1]}", token, is_remote=True
+            )
+        finally:
+            with suppress(OSError):
+                _part(connection)
+
+
+def _part(connection: socket.socket) -> None:
+    """End the connection so that the peer can read the last answers.
+
+    Samples that nobody has read would make the system throw away what the peer has not read yet.
+    """
+    connection.shutdown(socket.SHUT_WR)
+    connection.settimeout(PAUSE_S)
+    until_s = time.monotonic() + PARTING_S
+    while time.monotonic() < until_s:
+        with suppress(TimeoutError):
+            if not connection.recv(1 << 16):
+                break
+    # Wakes the thread that still reads, which otherwise holds the lock of the stream.
+    connection.shutdown(socket.SHUT_RDWR)
 
 
 def _wait(server: socket.socket) -> tuple[socket.socket, tuple[str, int]]:
