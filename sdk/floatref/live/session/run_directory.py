@@ -120,7 +120,7 @@ class RunDirectory:
             raise InputError("the stream has no final point; push samples of a vehicle that moves")
         inline = self._windows_bytes <= INLINE_BYTES
         self.profile.publish(self._description(inline), growing=False)
-        self._clean(inline)
+        _remove_state(self.path, inline)
 
     def _append(self, points: Sequence[LivePoints]) -> None:
         for each in points:
@@ -177,17 +177,27 @@ class RunDirectory:
             if stray.name != _stream_name(self._number):
                 stray.unlink(missing_ok=True)
 
-    def _clean(self, inline: bool) -> None:
-        names = [STATE, _stream_name(self._number), *([WINDOWS] if inline else [])]
-        for name in names:
-            with suppress(OSError):
-                os.unlink(self.path / name)
-
 
 def is_complete(path: Path) -> bool:
-    """Return whether ``path`` is a directory whose profile grows no more."""
-    document = path / DOCUMENT
-    return document.is_file() and "points" not in read_document(document)
+    """Return whether ``path`` is a directory whose profile grows no more.
+
+    What a program that was killed at the end has left beside such a profile is removed.
+    """
+    if not (path / DOCUMENT).is_file():
+        return False
+    document = read_document(path / DOCUMENT)
+    live = document.get("provenance", {}).get("live") if isinstance(document, dict) else None
+    if not isinstance(live, dict) or "points" in document:
+        return False
+    _remove_state(path, live.get("windows_file") != WINDOWS)
+    return True
+
+
+def _remove_state(path: Path, with_windows: bool) -> None:
+    for name in (STATE, *([WINDOWS] if with_windows else [])):
+        (path / name).unlink(missing_ok=True)
+    for stream in path.glob(_stream_name("*")):
+        stream.unlink(missing_ok=True)
 
 
 def points_of_complete(path: Path) -> tuple[int, float]:

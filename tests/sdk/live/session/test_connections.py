@@ -99,7 +99,7 @@ def test_a_message_that_cannot_be_used_ends_the_run(messages, live, tmp_path):
     odd = {"kind": "samples", "channels": {"left.height": {"values": [0.3, "x"]}}}
     with served(tmp_path / "run") as (port, _, errors):
         found = talk(port, live.as_lines([hello, pieces[0], odd, pieces[1]]))
-    line = "line 3: channels.left.height.values[1] is \"x\"; expected a number, or null"
+    line = 'line 3: channels.left.height.values[1] is "x"; expected a number, or null'
     assert found[-1]["text"].startswith(line)
     assert [str(error).startswith(line) for error in errors] == [True]
     assert (tmp_path / "run" / "live.json").exists()

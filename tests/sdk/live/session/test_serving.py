@@ -162,4 +162,6 @@ def test_a_hello_of_another_run_is_refused(made, live, tmp_path):
     assert answers[-1]["text"].startswith("line 1: hello: pipeline differs from that of the run")
     brief = {"kind": "hello", "format": "floatref-live/1"}
     answers, _ = live.serve(tmp_path / "run", [brief], resume=True)
-    assert answers[0]["next"]["left.height"] == messages[4]["channels"]["left.height"]["first"] + 400
+    assert (
+        answers[0]["next"]["left.height"] == messages[4]["channels"]["left.height"]["first"] + 400
+    )
