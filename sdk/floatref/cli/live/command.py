@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from floatref.cli.batch.interruption import interruptible
 from floatref.cli.number_option import number_option
 from floatref.errors import InputError, TargetExists
 from floatref.live.session.connections import is_loopback, read_token, serve_connections
@@ -14,6 +15,7 @@ from floatref.live.session.serving import Serving
 HERE = "127.0.0.1"
 LAST_PORT = 65_535
 LONGEST_SAVE_S = 3600.0
+SAVED = "Interrupted; the run is saved, go on with --resume"
 
 
 @click.command("live")
@@ -67,11 +69,12 @@ def live(
     token = _check_port(listen, host, allow_remote, token_file)
     run = LiveRun(out, resume, save_s)
     try:
-        if listen is not None:
-            serve_connections(run, host, listen, token, click.echo, _say)
-            return
-        with standard_streams() if follow is None else followed(follow) as peer:
-            Serving(run, peer).serve()
+        with interruptible(lambda: SAVED if run.is_begun else "Interrupted"):
+            if listen is not None:
+                serve_connections(run, host, listen, token, click.echo, _say)
+                return
+            with standard_streams() if follow is None else followed(follow) as peer:
+                Serving(run, peer).serve()
     finally:
         run.close()
 

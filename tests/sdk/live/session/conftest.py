@@ -3,6 +3,7 @@
 import io
 import json
 from io import BufferedReader, BytesIO
+from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -65,7 +66,7 @@ def messages_of(recording, step_s=2.0, numbered=True, **more):
     begin_s = min(c.span_s[0] for c in recording.channels)
     end_s = max(c.span_s[1] for c in recording.channels) + step_s
     cuts = np.arange(begin_s, end_s + step_s, step_s)
-    pieces = [samples_of(recording, a, b, numbered) for a, b in zip(cuts, cuts[1:], strict=False)]
+    pieces = [samples_of(recording, a, b, numbered) for a, b in pairwise(cuts)]
     return [hello_of(recording, **more), *pieces, {"kind": "finish"}]
 
 

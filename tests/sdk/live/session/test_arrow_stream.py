@@ -62,7 +62,7 @@ def test_the_answers_are_those_to_json_lines(messages, live, tmp_path):
     for answer in (found[-1], expected[-1]):
         answer.pop("profile")
     # When the stream is saved depends on the clock.
-    found, expected = ([a for a in all if a["kind"] != "saved"] for all in (found, expected))
+    found, expected = ([a for a in some if a["kind"] != "saved"] for some in (found, expected))
     assert found == expected
     for answer in found[:1]:
         enforce(answer, "floatref-live-answer-1", "answer")

@@ -110,15 +110,14 @@ def test_a_peer_that_reads_slowly_loses_nothing(drive, live, same, tmp_path):
     recording = drive(LEGS, tracks=("left", "right"))
     messages = live.messages_of(recording, step_s=10.0, provisional=True)
     found = []
-    with served(tmp_path / "run") as (port, _, errors):
-        with socket.socket() as connection:
-            connection.settimeout(WAIT_S)
-            connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 16)
-            connection.connect(("127.0.0.1", port))
-            # It reads nothing before it has sent all.
-            connection.sendall(live.as_lines(messages))
-            with connection.makefile("rb") as stream:
-                found = [json.loads(line) for line in stream]
+    with served(tmp_path / "run") as (port, _, errors), socket.socket() as connection:
+        connection.settimeout(WAIT_S)
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 16)
+        connection.connect(("127.0.0.1", port))
+        # It reads nothing before it has sent all.
+        connection.sendall(live.as_lines(messages))
+        with connection.makefile("rb") as stream:
+            found = [json.loads(line) for line in stream]
     assert not errors
     same(live.profile_of(found), read_profile(tmp_path / "run"))
     numbers = [

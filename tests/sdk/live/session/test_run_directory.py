@@ -1,7 +1,7 @@
 """The directory at every moment: before each operation on a file it can be read and resumed.
 
-A program that is killed leaves what is there between two operations on files. Law: the profile there
-is the beginning of that of the whole run, and the run resumes to the same profile.
+A program that is killed leaves what is there between two operations on files. Law: the profile
+there is the beginning of that of the whole run, and the run resumes to the same profile.
 """
 
 import shutil
@@ -107,7 +107,7 @@ def test_it_resumes_at_every_moment(made, live, same, tmp_path):
 
 
 def test_a_directory_that_is_no_run_is_named(tmp_path):
-    with pytest.raises(InputError, match="holds no live.json, so no live run to resume"):
+    with pytest.raises(InputError, match=r"holds no live\.json, so no live run to resume"):
         RunDirectory.reopen(tmp_path)
     for content in ("{}", '{"format": "floatref-live-run/1"}', "[]"):
         (tmp_path / "live.json").write_text(content, encoding="utf-8")
