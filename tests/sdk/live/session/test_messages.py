@@ -46,16 +46,14 @@ HEIGHT = {"name": "height", "track": "left", "unit": "m", "rate_hz": 100.0}
 HELLO = {"kind": "hello", "format": FORMAT, "channels": [HEIGHT]}
 
 
-@settings(max_examples=400)
+@settings(max_examples=60)
 @given(DOCUMENTS)
 def test_the_code_takes_the_samples_that_the_schema_takes(document):
-    try:
-        message = read_message(document, "line 1")
-    except InputError as error:
-        assert str(error).startswith("line 1: channels")
-        assert not SCHEMA.is_valid(document)
+    if not SCHEMA.is_valid(document):
+        with pytest.raises(InputError, match=r"^line 1: channels"):
+            read_message(document, "line 1")
         return
-    assert SCHEMA.is_valid(document)
+    message = read_message(document, "line 1")
     assert isinstance(message, Samples)
     for name, piece in message.channels.items():
         expected = [np.nan if v is None else v for v in document["channels"][name]["values"]]
@@ -68,7 +66,7 @@ def test_other_kinds_are_those_of_the_schema(kind, whole):
     if SCHEMA.is_valid(document):
         assert isinstance(read_message(document, "line 1"), Hello | Finish)
         return
-    with pytest.raises(InputError, match="^line 1: "):
+    with pytest.raises(InputError, match=r"^line 1: "):
         read_message(document, "line 1")
 
 
@@ -78,8 +76,11 @@ def test_other_kinds_are_those_of_the_schema(kind, whole):
         ({"format": "floatref-live/2"}, r"format is .floatref-live/2.; expected .floatref-live/1."),
         ({"channels": [{**HEIGHT, "unit": "mm"}]}, r"channels\[0\]: channel left\.height: "),
         ({"channels": [HEIGHT, HEIGHT]}, r"channels\[1\]: channel left\.height: given twice"),
-        ({"channels": [{**HEIGHT, "name": "hight"}]}, r"channels\[0\].* name is .hight."),
-        ({"channels": [{**HEIGHT, "rate_hz": 0}]}, r"channels\[0\].* rate_hz is 0; expected the"),
+        (
+            {"channels": [{**HEIGHT, "name": "hight"}]},
+            r"channels\[0\]\.name .* is .hight.; did you mean height",
+        ),
+        ({"channels": [{**HEIGHT, "rate_hz": 0}]}, r"channels\[0\]\.rate_hz .* is 0; expected the"),
         ({"setup": {"profile_interval_m": "0.1"}}, r"setup\.profile_interval_m is .0\.1."),
         ({"late_s": 0}, "late_s is 0; expected how much later"),
     ],
