@@ -41,6 +41,7 @@ COMMANDS = {
         "noise settings of a Kalman pipeline, from known runs",
     ),
     "batch": ("floatref.cli.batch.command:batch", "process many recordings on a cluster"),
+    "live": ("floatref.cli.live.command:live", "profiles while the vehicle drives"),
     "vehicle": ("floatref.cli.vehicle:vehicle", "settings of a vehicle, from its runs"),
 }
 

@@ -29,7 +29,7 @@ def read_document(path: Path, most_bytes: int = LARGEST_BYTES) -> Any:
             "keep samples in files of their own beside it"
         )
     try:
-        return _parse(text.decode("utf-8-sig"))
+        return parse_document(text.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path}: byte {error.start} is not UTF-8 text; give the JSON file of the directory"
@@ -76,7 +76,8 @@ def _number(value: float, where: str) -> float | None:
     return None if math.isnan(value) else float(value)
 
 
-def _parse(text: str) -> Any:
+def parse_document(text: str) -> Any:
+    """Return the content of a JSON ``text``; InputError if it is empty, truncated or no JSON."""
     if not text.strip():
         raise InputError("empty; copy the complete file")
     try:

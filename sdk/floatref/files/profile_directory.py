@@ -30,7 +30,8 @@ def read_profile(path: Path) -> Profile:
         return read_profile_csv(source)
     document = read_document(source)
     enforce(document, SCHEMA, source)
-    tracks = tuple(_track(entry, source) for entry in document["tracks"])
+    count = document.get("points")
+    tracks = tuple(_track(entry, source, count) for entry in document["tracks"])
     with name_errors(source):
         return Profile(
             interval_m=float(document["interval_m"]),
@@ -59,15 +60,15 @@ def write_profile(profile: Profile, directory: Path, overwrite: bool = False) ->
         write_document(document, folder / DOCUMENT)
 
 
-def _track(entry: Mapping[str, Any], source: Path) -> ProfileTrack:
+def _track(entry: Mapping[str, Any], source: Path, count: int | None) -> ProfileTrack:
     with name_errors(f"track {entry['name']}"):
-        elevation = read_samples(source.with_name(entry["elevation_file"]))
+        elevation = read_samples(source.with_name(entry["elevation_file"]), count)
         valid = sigma = None
         if "valid_file" in entry:
-            valid = read_flags(source.with_name(entry["valid_file"]))
+            valid = read_flags(source.with_name(entry["valid_file"]), count)
             _check_length(source, entry["valid_file"], valid.size, elevation.size)
         if "sigma_file" in entry:
-            sigma = read_samples(source.with_name(entry["sigma_file"]))
+            sigma = read_samples(source.with_name(entry["sigma_file"]), count)
             _check_length(source, entry["sigma_file"], sigma.size, elevation.size)
     with name_errors(source):
         return ProfileTrack.of(entry["name"], elevation, valid, sigma)

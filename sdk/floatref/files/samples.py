@@ -14,17 +14,21 @@ SAMPLE = np.dtype("<f8")
 """Format of a sample in the file: little-endian float64, NaN = missing."""
 
 
-def read_samples(path: Path) -> FloatArray:
+def read_samples(path: Path, count: int | None = None) -> FloatArray:
     """Return the samples of ``path``, mapped from the file and read-only, shape (N,).
 
-    Raises InputError for a file that cannot be read, is empty or ends within a sample.
+    With ``count``, only so many are read: another program may be appending more. Raises InputError
+    for a file that cannot be read, is empty, ends within a sample or holds fewer than ``count``.
     """
-    return frozen(_map_file(path, SAMPLE.itemsize).view(SAMPLE))
+    return frozen(_map_file(path, SAMPLE.itemsize, count).view(SAMPLE))
 
 
-def read_flags(path: Path) -> BoolArray:
-    """Return the bytes of ``path`` as truth values, shape (N,); InputError unless 0 or 1."""
-    flags = _map_file(path, 1)
+def read_flags(path: Path, count: int | None = None) -> BoolArray:
+    """Return the bytes of ``path``, the first ``count`` if given, as truth values, shape (N,).
+
+    Raises InputError unless they are 0 or 1, and if there are fewer than ``count``.
+    """
+    flags = _map_file(path, 1, count)
     bad = np.flatnonzero(flags > 1)
     if bad.size:
         raise InputError(
@@ -57,8 +61,16 @@ def free_name(stem: str, suffix: str, taken: set[str]) -> str:
     return name
 
 
-def _map_file(path: Path, item_bytes: int) -> NDArray[np.uint8]:
+def _map_file(path: Path, item_bytes: int, count: int | None = None) -> NDArray[np.uint8]:
     found = map_bytes(path)
+    if count is not None and found.size < count * item_bytes:
+        raise InputError(
+            f"{path}: {found.size // item_bytes} points, but profile.json has {count}; the file is "
+            "truncated, copy the directory again"
+        )
+    if count is not None:
+        # More may be there: points are written before the document counts them.
+        return found[: count * item_bytes]
     if found.size % item_bytes:
         raise InputError(
             f"{path}: {found.size} bytes are not a whole number of float64 samples; "

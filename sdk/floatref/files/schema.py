@@ -19,6 +19,8 @@ SCHEMAS = (
     "floatref-map-1",
     "floatref-batch-1",
     "floatref-batch-record-1",
+    "floatref-live-1",
+    "floatref-live-answer-1",
 )
 """Names of the schemas in the package."""
 

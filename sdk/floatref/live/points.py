@@ -78,16 +78,28 @@ def join_points(points: Iterable[LivePoints]) -> Profile:
     names = [track.name for track in made.tracks]
     parts = [_without_missing(names, each, before) for before, each in _pairs(final)]
     tracks = (_join([part[n] for part in parts], name) for n, name in enumerate(names))
-    provenance = dict(made.record.get("provenance", {}))
-    windows = [{k: v for k, v in each.record.items() if k != "settings"} for each in final]
+    made_by = describe_points(made)
+    live = {"windows": [record_of_window(each) for each in final]}
     return Profile(
         interval_m=made.interval_m,
         tracks=tuple(tracks),
         start_m=final[0].first * made.interval_m,
-        pipeline=made.pipeline,
-        settings=made.record.get("settings", {}),
-        provenance={**provenance, "live": {"windows": windows}},
+        pipeline=made_by["pipeline"],
+        settings=made_by["settings"],
+        provenance={**made_by["provenance"], "live": live},
     )
+
+
+def describe_points(made: LivePoints) -> dict[str, Any]:
+    """Return pipeline, settings and provenance of a profile with the points ``made``."""
+    provenance = dict(made.record.get("provenance", {}))
+    settings = made.record.get("settings", {})
+    return {"pipeline": made.pipeline, "settings": settings, "provenance": provenance}
+
+
+def record_of_window(points: LivePoints) -> dict[str, Any]:
+    """Return what the provenance of a profile holds about the window of final ``points``."""
+    return {k: v for k, v in points.record.items() if k != "settings"}
 
 
 def missing_points(names: Sequence[str], count: int) -> tuple[ProfileTrack, ...]:

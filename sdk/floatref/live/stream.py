@@ -54,6 +54,16 @@ class LiveStream:
         return self._following.latency
 
     @property
+    def interval_m(self) -> float:
+        """Distance between points in m."""
+        return self._following.order.interval_m
+
+    @property
+    def tracks(self) -> tuple[str, ...]:
+        """Names of the wheel paths of the points."""
+        return self._following.order.tracks
+
+    @property
     def is_open(self) -> bool:
         """Whether it takes samples."""
         return not (self._finished or self._stopped)

@@ -120,6 +120,7 @@ CHECKS: dict[str, Callable[[Drawn], None] | str] = {
     "floatref channels": "shows channels of a recording",
     "floatref allan": "shows noise of sensors of a recording",
     "floatref tune": "shows settings; its profiles are compared where the reference is known",
+    "floatref live": "sends points with their flags, and no figure",
     "floatref vehicle": "shows settings; a slip is that of stretches that two passes agree on",
     "conformance run": "judges a device on roads that are known, its flags among the quantities",
     "conformance replay": "as run",

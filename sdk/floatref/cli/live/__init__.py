@@ -1,0 +1,1 @@
+"""`floatref live`: profiles while another program sends samples."""

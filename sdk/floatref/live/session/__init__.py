@@ -1,0 +1,1 @@
+"""A stream served to another program: messages in, answers out, a directory that survives both."""
