@@ -45,7 +45,7 @@ class Registry:
             here = ", ".join(self.checks)
             raise InputError(f"check {id_}: not built yet; these can be run: {here}")
         near = nearest(id_, STREAM_CHECKS)
-        if near is not None:
+        if near:
             raise InputError(f"check {id_}: unknown check; did you mean {near}?")
         known = suggest(id_, self.checks, "these can be run:")
         raise InputError(f"check {id_}: unknown check; {known}")

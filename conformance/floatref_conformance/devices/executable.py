@@ -47,7 +47,9 @@ class ExecDevice:
         """
         declared = self.describe().get("streaming", False)
         if not isinstance(declared, bool):
-            raise DeviceError(f"gives a description with streaming {declared!r}; give true or false")
+            raise DeviceError(
+                f"gives a description with streaming {declared!r}; give true or false"
+            )
         return self.argv if declared else None
 
     def run(self, recording: Path, profile: Path) -> None:

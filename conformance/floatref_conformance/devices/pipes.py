@@ -28,6 +28,10 @@ class Most:
     total: int = MAX_OUTPUT
 
 
+OF_COMMANDS = Most()
+"""What a device may write that answers commands."""
+
+
 class Lines:
     """Lines of a stream, taken one by one; reading stops when the stream exceeds a limit.
 
@@ -37,7 +41,7 @@ class Lines:
         rest: bytes since the end of the last line.
     """
 
-    def __init__(self, stream: IO[bytes], most: Most = Most()) -> None:
+    def __init__(self, stream: IO[bytes], most: Most = OF_COMMANDS) -> None:
         """Begin to read ``stream``, which may write ``most``."""
         self._most = most
         self.ended = False

@@ -11,7 +11,7 @@ from pathlib import Path
 from time import monotonic
 
 from floatref_conformance.devices.descendants import Descendants
-from floatref_conformance.devices.pipes import Feed, Lines, Most, Tail
+from floatref_conformance.devices.pipes import OF_COMMANDS, Feed, Lines, Most, Tail
 from floatref_conformance.errors import DeviceError, DeviceHung
 
 STEP_S = 0.05
@@ -22,7 +22,7 @@ SHOWN_LINES = 5
 SHOWN_LENGTH = 200
 
 
-def start(argv: Sequence[str], folder: Path, most: Most = Most()) -> "Child":
+def start(argv: Sequence[str], folder: Path, most: Most = OF_COMMANDS) -> "Child":
     """Start ``argv`` in ``folder`` without a shell, in a session of its own.
 
     It may write ``most``. Raises DeviceError if it cannot be started.
@@ -52,7 +52,7 @@ class Child:
     """A running process with three pipes, and its descendants."""
 
     def __init__(
-        self, process: "subprocess.Popen[bytes]", descendants: Descendants, most: Most = Most()
+        self, process: "subprocess.Popen[bytes]", descendants: Descendants, most: Most = OF_COMMANDS
     ) -> None:
         """Begin to read what ``process`` writes."""
         if process.stdin is None or process.stdout is None or process.stderr is None:

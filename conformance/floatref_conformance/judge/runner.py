@@ -29,14 +29,7 @@ from floatref_conformance.judge.judging import (
     left_out_result,
     not_applicable_result,
 )
-from floatref_conformance.judge.stream_judging import (
-    StreamPlan,
-    StreamTrial,
-    find_live_argv,
-    in_order,
-    left_out_streams,
-    not_streaming,
-)
+from floatref_conformance.judge.stream_judging import StreamPlan, StreamTrial, judge_streams
 from floatref_conformance.judge.trial import Trial
 from floatref_conformance.judge.waivers import waive
 
@@ -80,7 +73,7 @@ class Plan:
     timeout_s: float | None = None
     report: Path | None = None
     edition: Edition = field(default_factory=find_edition)
-    streams: StreamPlan = StreamPlan()
+    streams: StreamPlan = field(default_factory=StreamPlan)
 
 
 Judged = tuple[list[CheckResult], list[Mapping[str, Any]]]
@@ -127,21 +120,12 @@ def _run(plan: Plan, emit: Emit, closing: Closing, judge_all: JudgeAll | None) -
 def _judge_streams(
     plan: Plan, description: Description, emit: Emit, closing: Closing
 ) -> tuple[CheckResult, ...]:
-    """Return the results of the checks of streams; each run starts the device anew.
-
-    What is started once, for recordings, is stopped before: it may need hardware of its own.
-    """
-    argv = find_live_argv(plan.device)
-    if argv is None:
-        return in_order(not_streaming(plan.streams))
-    end_fault = closing.close()
+    """Return the results of the checks of streams; each run starts the device anew."""
     trial = StreamTrial(
-        argv, description, plan.device_class, plan.seed, plan.effort, plan.timeout_s, emit
+        description, plan.device_class, plan.seed, plan.effort, emit, plan.timeout_s
     )
-    results = [trial.judge(check) for check in plan.streams.checks]
-    if results and end_fault:
-        results[-1] = _add_end_fault(results[-1], end_fault)
-    return in_order([*results, *left_out_streams(plan.streams)])
+    results = judge_streams(plan.streams, plan.device, trial, closing.close)
+    return tuple(waive(result, plan.waivers) for result in results)
 
 
 def _judge_all(

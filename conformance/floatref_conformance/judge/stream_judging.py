@@ -1,6 +1,6 @@
 """The checks of streams on one device, after the checks of recordings: a group of its own."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -56,50 +56,79 @@ def find_live_argv(device: Device) -> Sequence[str] | None:
     return argv
 
 
+def judge_streams(
+    plan: StreamPlan, device: Device, trial: "StreamTrial", stop: Callable[[], str]
+) -> tuple[CheckResult, ...]:
+    """Return the results of ``plan`` in the order of the list; empty if it does not stream.
+
+    ``stop`` ends what was started once, for recordings, which may need hardware of its own, and
+    returns its fault. Checks of streams that are not in the plan are results, too.
+    """
+    try:
+        argv = find_live_argv(device)
+    except DeviceError as fault:
+        return tuple(_without_run(plan, Outcome.ERROR, str(fault)))
+    if argv is None:
+        named = plan if plan.named else StreamPlan()
+        return tuple(_without_run(named, Outcome.NOT_APPLICABLE, NOT_STREAMING))
+    end_fault = stop() if plan.checks else ""
+    if end_fault:
+        reason = f"when it was stopped, the device {end_fault}"
+        return tuple(_without_run(plan, Outcome.ERROR, reason))
+    results = {check.id: trial.judge(check, argv) for check in plan.checks}
+    return tuple(
+        results.get(id_) or CheckResult(id_, check.clause, Outcome.SKIP, NOT_SELECTED)
+        for id_, check in STREAM_CHECKS.items()
+    )
+
+
+def _without_run(plan: StreamPlan, outcome: Outcome, reason: str) -> Iterator[CheckResult]:
+    for check in plan.checks:
+        yield CheckResult(check.id, check.clause, outcome, reason)
+
+
 @dataclass
 class StreamTrial:
     """The checks of streams on one device.
 
     Attributes:
-        argv: the command line of its process.
         description: what it is, and which channels it may receive.
         device_class: the class whose limits decide; they are the same for every class.
         seed, effort: draw the drives, and say how many.
-        timeout_s: time in s for an answer; None for 60 s and twice the drive's length.
         emit: is called with every event.
+        timeout_s: time in s for an answer; None for 60 s and twice the drive's length.
     """
 
-    argv: Sequence[str]
     description: Description
     device_class: DeviceClass
     seed: int
     effort: Effort
-    timeout_s: float | None
     emit: Emit
+    timeout_s: float | None = None
     hangs: int = 0
     _runs: dict[str, StreamRuns] = field(default_factory=dict)
 
-    def judge(self, check: StreamCheck) -> CheckResult:
-        """Return the result of ``check``."""
+    def judge(self, check: StreamCheck, argv: Sequence[str]) -> CheckResult:
+        """Return the result of ``check`` for processes started by ``argv``."""
         cases = (long_drive(self.seed),) if check.is_long else drives(self.seed, self.effort)
         self.emit(CheckStarted(check.id, len(cases)))
-        results = [self.judge_case(check, case) for case in cases]
+        results = [self.judge_case(check, case, argv) for case in cases]
         skipped = [case.skipped for case in results if case.skipped is not None]
         result = (
             CheckResult(check.id, check.clause, Outcome.NOT_APPLICABLE, skipped[0])
             if skipped
-            else check_result_of(check, results, self.device_class)
+            else check_result(check, results, self.device_class)
         )
         self.emit(CheckFinished(result))
         return result
 
-    def judge_case(self, check: StreamCheck, case: StreamCase) -> CaseResult:
+    def judge_case(self, check: StreamCheck, case: StreamCase, argv: Sequence[str]) -> CaseResult:
         """Return the result of ``case``, with the device's faults."""
         result = CaseResult(case.name, case.scenario.to_dict())
         try:
             if self.hangs >= MOST_HANGS:
                 raise DeviceError(f"not run: the device hung {self.hangs} times")
-            result = replace(result, measurements=check.judge(self._runs_of(case)))
+            result = replace(result, measurements=check.judge(self._runs_of(case, argv)))
         except DeviceSkipped as reason:
             result = replace(result, skipped=str(reason))
         except DeviceError as fault:
@@ -109,7 +138,7 @@ class StreamTrial:
         self.emit(CaseFinished(check.id, result))
         return result
 
-    def _runs_of(self, case: StreamCase) -> StreamRuns:
+    def _runs_of(self, case: StreamCase, argv: Sequence[str]) -> StreamRuns:
         """Return the runs of ``case``, which all its checks share."""
         if case.name not in self._runs:
             recorded = record_for(self.description.capabilities)
@@ -117,37 +146,6 @@ class StreamTrial:
             recording = visible(taken.recording, self.description.channels)
             begin_s, end_s = span(recording)
             limit_s = self.timeout_s or RUN_S + RUN_PER_LENGTH * (end_s - begin_s)
-            command = LiveCommand(tuple(self.argv), Path.cwd(), limit_s)
+            command = LiveCommand(tuple(argv), Path.cwd(), limit_s)
             self._runs[case.name] = StreamRuns(case, recording, taken.truth, command, self.seed)
         return self._runs[case.name]
-
-
-def check_result_of(
-    check: StreamCheck, cases: Sequence[CaseResult], device_class: DeviceClass
-) -> CheckResult:
-    """Return the outcome of ``check`` from its ``cases``."""
-    return check_result(check, cases, device_class)
-
-
-def left_out_streams(plan: StreamPlan) -> list[CheckResult]:
-    """Return the results of the checks of streams that are not in ``plan``."""
-    chosen = {check.id for check in plan.checks}
-    return [
-        CheckResult(id_, check.clause, Outcome.SKIP, NOT_SELECTED)
-        for id_, check in STREAM_CHECKS.items()
-        if id_ not in chosen
-    ]
-
-
-def not_streaming(plan: StreamPlan) -> list[CheckResult]:
-    """Return the results for a device that does not stream: empty unless checks were named."""
-    return [
-        CheckResult(check.id, check.clause, Outcome.NOT_APPLICABLE, NOT_STREAMING)
-        for check in (plan.checks if plan.named else ())
-    ]
-
-
-def in_order(results: Sequence[CheckResult]) -> tuple[CheckResult, ...]:
-    """Return ``results`` in the order of the list of checks."""
-    by_id: Mapping[str, CheckResult] = {result.id: result for result in results}
-    return tuple(by_id[id_] for id_ in STREAM_CHECKS if id_ in by_id)

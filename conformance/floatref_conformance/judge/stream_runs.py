@@ -11,7 +11,7 @@ from floatref.values.profile import Profile
 from floatref.values.recording import Channel, Recording
 from floatref_conformance.checks.streams.stream_check import StreamCase
 from floatref_conformance.devices.streams.live_session import LiveCommand, LiveSession
-from floatref_conformance.devices.streams.pieces import PIECE_S, Piece, cut, drawn_cuts, even_cuts
+from floatref_conformance.devices.streams.pieces import Piece, cut, drawn_cuts, even_cuts
 from floatref_conformance.devices.streams.questions import say_hello
 from floatref_conformance.devices.streams.transcript import Transcript
 from floatref_conformance.errors import DeviceError
@@ -76,9 +76,7 @@ class StreamRuns:
         whole = repeat(self.recording, self.case.repeats)
         return cut(whole, even_cuts(whole, LONG_PIECE_S))
 
-    def _once(
-        self, name: str, pieces: Callable[[], Iterable[Piece]], every: int = 0
-    ) -> Transcript:
+    def _once(self, name: str, pieces: Callable[[], Iterable[Piece]], every: int = 0) -> Transcript:
         if name in self._faults:
             raise self._faults[name]
         try:
@@ -126,7 +124,5 @@ def _repeat(channel: Channel, count: int) -> Channel:
     values = channel.values[:-1]
     if channel.id.name.endswith("distance"):
         step_m = float(channel.values[-1] - channel.values[0])
-        return replace(
-            channel, values=np.concatenate([values + k * step_m for k in range(count)])
-        )
+        return replace(channel, values=np.concatenate([values + k * step_m for k in range(count)]))
     return replace(channel, values=np.tile(values, count))

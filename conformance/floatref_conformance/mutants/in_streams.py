@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.live.points import LivePoints
 from floatref.values.display.similar_names import suggest
 from floatref.values.profile import ProfileTrack
 from floatref.values.recording import Setup
@@ -59,7 +58,7 @@ class Wrong:
 
 @dataclass
 class LooksAhead(Wrong):
-    """Provisional points also hold what the laser measures later, while samples are on their way."""
+    """Provisional points hold what the laser measures later, in samples on their way."""
 
     # The host answers a sync after `AHEAD` further ones: see `messages_ahead`.
     later: list[float] = field(default_factory=list)
@@ -83,7 +82,7 @@ class LooksAhead(Wrong):
 class Revises(Wrong):
     """What is final is given out again, a little changed, with the next final points."""
 
-    last: LivePoints | None = None
+    last: Any = None
 
     def ready(self, wait: bool = False) -> Sequence[Any]:
         """Return points, behind each final one its revised predecessor."""
@@ -145,9 +144,7 @@ class DependsOnChunks(Wrong):
 
     def push(self, samples: Mapping[str, Any]) -> None:
         """Smooth heights over three samples of this push, and pass them on."""
-        super().push(
-            {n: _smooth(v) if n.endswith("height") else v for n, v in samples.items()}
-        )
+        super().push({n: _smooth(v) if n.endswith("height") else v for n, v in samples.items()})
 
 
 def _smooth(values: np.ndarray) -> np.ndarray:
@@ -156,7 +153,7 @@ def _smooth(values: np.ndarray) -> np.ndarray:
     return out
 
 
-def _shifted(points: LivePoints, by_m: float) -> LivePoints:
+def _shifted(points: Any, by_m: float) -> Any:
     """Return ``points`` with elevations ``by_m`` higher."""
     tracks = (ProfileTrack.of(t.name, t.elevation + by_m, t.valid, t.sigma) for t in points.tracks)
     return replace(points, tracks=tuple(tracks))
@@ -258,6 +255,4 @@ def stream_mutant(name: str) -> StreamMutant:
 
 if __name__ == "__main__":
     chosen = stream_mutant(sys.argv[1])
-    stream_alone(
-        chosen.open_stream, messages_ahead if chosen.kind is LooksAhead else iter
-    )
+    stream_alone(chosen.open_stream, messages_ahead if chosen.kind is LooksAhead else iter)

@@ -66,9 +66,7 @@ def _final(passing: Passing, latency: Latency) -> FloatArray:
     return passing.due_final(passing.marks_m, latency)
 
 
-def _of_provisional(
-    run: Transcript, names: list[str], passing: Passing
-) -> tuple[Measurement, ...]:
+def _of_provisional(run: Transcript, names: list[str], passing: Passing) -> tuple[Measurement, ...]:
     latency = run.started.latency
     if latency.provisional_s is None:
         return ()

@@ -26,13 +26,14 @@ class MemoryCheck:
     clause: str = "Declared window"
     derivation: str = (
         "A drive at 10 m/s is streamed over and over, for half an hour. A device may hold samples "
-        "and work for the longest_s that it declares, a quarter of an hour at most, so in the first "
-        "half its memory may do as it likes. It is taken from /proc at every tenth second of "
-        "samples: memory of its own, swapped out or not, of all its processes. Of each sixth of the run the smallest value counts, since a full "
-        "window, and work on it, take more than an empty one; and of the growths to the fifth and to the last "
-        "sixth the smaller one, since an allocator may take a block once. A device that keeps its "
-        "samples grows by 4 or 8 bytes for each, in both; a quarter of 8 is allowed. Where the "
-        "system has no /proc the check is skipped."
+        "and work for the longest_s that it declares, a quarter of an hour at most, so in the "
+        "first half its memory may do as it likes. It is taken from /proc at every tenth second "
+        "of samples: memory of its own, swapped out or not, of all its processes. Of each sixth "
+        "of the run the smallest value counts, since a full window, and work on it, take more "
+        "than an empty one; and of the growths to the fifth and to the last sixth the smaller "
+        "one, since an allocator may take a block once. A device that keeps its samples grows by "
+        "4 or 8 bytes for each, in both; a quarter of 8 is allowed. Where the system has no /proc "
+        "the check is not applicable."
     )
     floor: str = "The device answers every sync of the run and gives out final points."
     limits: Mapping[str, str] = field(
@@ -52,8 +53,8 @@ class MemoryCheck:
         part_s = runs.case.repeats * (end_s - begin_s) / PARTS
         if latency.longest_s > FIRST * part_s:
             raise DeviceError(
-                f"stream: declares longest_s {latency.longest_s:g}; a stream gives out final points "
-                f"within {FIRST * part_s:.0f} s"
+                f"stream: declares longest_s {latency.longest_s:g}; a stream gives out final "
+                f"points within {FIRST * part_s:.0f} s"
             )
         least = [_least(measured, k * part_s, (k + 1) * part_s) for k in range(FIRST, PARTS)]
         growth = min(after - before for before, after in pairwise(least))

@@ -69,6 +69,8 @@ class Passing:
         stood_s = self.times_s[(before >= self.times_s[0]) & (gone < MOVES_M)]
         index = np.searchsorted(stood_s, passed_s)
         inside = np.minimum(index, max(stood_s.size - 1, 0))
-        return np.where(index < stood_s.size, stood_s[inside], np.inf) if stood_s.size else (
-            np.full(passed_s.shape, np.inf)
+        return (
+            np.where(index < stood_s.size, stood_s[inside], np.inf)
+            if stood_s.size
+            else (np.full(passed_s.shape, np.inf))
         )

@@ -29,9 +29,7 @@ LONG_LENGTH_M, LONG_KMH, LONG_REPEATS = 2000.0, 36.0, 9
 def drives(seed: int, effort: Effort) -> tuple[StreamCase, ...]:
     """Return the drives of ``seed``: at constant speed and with a stop."""
     count = {Effort.QUICK: 1, Effort.CERTIFICATION: 3}[effort]
-    return tuple(
-        case for k in range(count) for case in (_constant(seed, k), _stop(seed, k))
-    )
+    return tuple(case for k in range(count) for case in (_constant(seed, k), _stop(seed, k)))
 
 
 def long_drive(seed: int) -> StreamCase:

@@ -112,10 +112,14 @@ def read_points(answer: Mapping[str, Any]) -> Points:
     """Return the points in ``answer``."""
     state = answer.get("state")
     if state not in (FINAL, PROVISIONAL):
-        raise DeviceError(f"points with state {readable(repr(state), 40)}; give final or provisional")
+        raise DeviceError(
+            f"points with state {readable(repr(state), 40)}; give final or provisional"
+        )
     interval_m = _amount(answer, "interval_m")
     if not MIN_INTERVAL_M <= interval_m <= MAX_INTERVAL_M:
-        raise DeviceError(f"points with interval_m {interval_m:g}; give {MIN_INTERVAL_M} to {MAX_INTERVAL_M}")
+        raise DeviceError(
+            f"points with interval_m {interval_m:g}; give {MIN_INTERVAL_M} to {MAX_INTERVAL_M}"
+        )
     tracks = answer.get("tracks")
     if not isinstance(tracks, Mapping) or not tracks:
         raise DeviceError("points without tracks")
@@ -134,8 +138,12 @@ def _path(name: str, answer: object) -> Path:
             f"points of track {readable(name, 40)} without elevation and valid of one length"
         )
     if not given or not all(isinstance(flag, bool) for flag in valid):
-        raise DeviceError(f"points of track {readable(name, 40)}: empty, or valid is not all true or false")
-    if any(v is not None and (isinstance(v, bool) or not isinstance(v, (int, float))) for v in given):
+        raise DeviceError(
+            f"points of track {readable(name, 40)}: empty, or valid is not all true or false"
+        )
+    if any(
+        v is not None and (isinstance(v, bool) or not isinstance(v, (int, float))) for v in given
+    ):
         raise DeviceError(f"points of track {readable(name, 40)}: an elevation is no number")
     elevation = np.array(given, dtype=np.float64)
     return Path(elevation, np.array(valid) & np.isfinite(elevation))

@@ -1,8 +1,8 @@
 """One run of a device that streams, in a process of its own: samples in, points out.
 
 The judge does not wait for the answer to each piece: up to `WINDOW` may be unanswered, as with a
-device behind a slow line. What a device writes before `synced` is of the samples before that `sync`,
-and so all times are recorded time, whatever the speed of the machine.
+device behind a slow line. What a device writes before `synced` is of the samples before that
+`sync`, and so all times are recorded time, whatever the speed of the machine.
 """
 
 from collections import deque

@@ -116,9 +116,7 @@ def _line(pieces: list[Given], name: str, first: int, count: int, interval_m: fl
     return Line(first, interval_m, elevation, valid, given_s, changed_m)
 
 
-def differences(
-    a: FloatArray, a_valid: BoolArray, b: FloatArray, b_valid: BoolArray
-) -> FloatArray:
+def differences(a: FloatArray, a_valid: BoolArray, b: FloatArray, b_valid: BoolArray) -> FloatArray:
     """Return the differences of two elevations in m, infinite where flags or gaps differ."""
     with np.errstate(invalid="ignore"):
         apart = np.abs(a - b)
