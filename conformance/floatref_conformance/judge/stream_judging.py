@@ -35,16 +35,18 @@ class StreamPlan:
     Attributes:
         checks: those that are run, in order.
         named: whether the user named them; a device that does not stream then gets a result, too.
+        counts: whether checks of streams belong to the run; those that are not run are left out.
     """
 
     checks: tuple[StreamCheck, ...] = ()
     named: bool = False
+    counts: bool = False
 
     @classmethod
     def of(cls, ids: Sequence[str]) -> "StreamPlan":
         """Return the plan for the checks that the user named; all without any name."""
         chosen = tuple(check for id_, check in STREAM_CHECKS.items() if not ids or id_ in ids)
-        return cls(chosen, bool(ids and chosen))
+        return cls(chosen, bool(ids and chosen), True)
 
 
 def find_live_argv(device: Device) -> Sequence[str] | None:
@@ -64,6 +66,8 @@ def judge_streams(
     ``stop`` ends what was started once, for recordings, which may need hardware of its own, and
     returns its fault. Checks of streams that are not in the plan are results, too.
     """
+    if not plan.counts:
+        return ()
     try:
         argv = find_live_argv(device)
     except DeviceError as fault:
