@@ -106,7 +106,7 @@ int serve(const struct device *device)
         else if (!json_parse(line, (size_t)length, &request))
             answer_text(nothing, "error", "a line is not JSON");
         else if (!obey(device, request))
-            return fflush(stdout) != 0;
+            return 0;
         if (fflush(stdout) != 0)
             return 1;
     }
