@@ -122,7 +122,8 @@ def summary(result: RunResult) -> str:
         parts.append(f"{left_out} {_be(left_out)} not run and not judged")
     left_out = sum(c.outcome is Outcome.SKIP for c in result.streams_shown)
     if left_out:
-        parts.append(f"{left_out} stream checks {_be(left_out)} not run and not judged")
+        checks = "stream check" if left_out == 1 else "stream checks"
+        parts.append(f"{left_out} {checks} {_be(left_out)} not run and not judged")
     if result.false_alarms:
         alarms = "false alarm" if result.false_alarms == 1 else "false alarms"
         parts.append(f"{result.false_alarms} {alarms}")
