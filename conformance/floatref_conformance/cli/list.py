@@ -81,9 +81,9 @@ def _in_words(listing: dict[str, Any]) -> str:
     checks, devices = listing["checks"], listing["devices"]
     built = [check["id"] for check in checks if check["built"]]
     rows = [(c["id"], c["title"], _details(c)) for c in checks]
+    needs = "needs a device that streams"
+    rows += [(c["id"], c["title"], f"{c['clause']}; {needs}") for c in listing["stream_checks"]]
     lines = ["Checks", *_align(rows)]
-    rows = [(c["id"], c["title"], c["clause"]) for c in listing["stream_checks"]]
-    lines += ["", "Checks of devices that stream", *_align(rows)]
     for kind, ours in groupby(devices, lambda device: device["spec"].partition(":")[0]):
         rows = [(d["spec"], d["summary"], _fails(d["fails"], built)) for d in ours]
         lines += ["", f"Devices, {kind}", *_align(rows)]
