@@ -11,10 +11,11 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import active_children, get_context, resource_tracker
-from tempfile import TemporaryDirectory
 from threading import current_thread, main_thread
 from types import FrameType
 from typing import Any, TypeVar
+
+from floatref.files.scratch import scratch_folder
 
 Result = TypeVar("Result")
 
@@ -35,8 +36,8 @@ def worker_pool(processes: int) -> Iterator[WorkerPool]:
     A fork would share the threads of this process.
     """
     others = set(active_children())
-    with TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
-        pool = WorkerPool(processes, get_context("spawn"), _prepare_worker, (scratch,))
+    with scratch_folder("workers") as scratch:
+        pool = WorkerPool(processes, get_context("spawn"), _prepare_worker, (str(scratch),))
         try:
             yield pool
         except BaseException:

@@ -4,13 +4,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TypeVar
 
 import numpy as np
 
 from floatref.errors import FloatrefError
 from floatref.files import read_profile, write_recording
+from floatref.files.scratch import scratch_folder
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref_conformance.devices.delivered import take
@@ -59,8 +59,8 @@ def exercise(
 
     The device sees a new folder with a neutral name and the channels that it may receive.
     """
-    with TemporaryDirectory(ignore_cleanup_errors=True) as name:
-        folder = Path(name).resolve()
+    with scratch_folder("case") as made:
+        folder = made.resolve()
         given = visible(recording, description.channels)
         write_recording(given, folder / "recording")
         target = folder / "profile"
@@ -92,8 +92,8 @@ def _ask(question: Callable[[], Answer]) -> Answer:
 
 def _read(target: Path) -> Profile:
     """Return the profile in ``target``, read from a copy and held in memory."""
-    with TemporaryDirectory(ignore_cleanup_errors=True) as name:
-        copy = Path(name).resolve() / target.name
+    with scratch_folder("copy") as made:
+        copy = made.resolve() / target.name
         take(target, copy)
         try:
             profile = read_profile(copy)

@@ -1,13 +1,13 @@
 """Atomic writing: the content is written beside the target, then renamed to it."""
 
 import os
-import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from floatref.errors import InputError, TargetExists
+from floatref.files.owners import PREFIX, own_name, sweep_once
 
 SAMPLE_SUFFIXES = (".f64", ".u8")
 """Suffixes of a directory's sample files, which are deleted when it is replaced."""
@@ -81,7 +81,9 @@ def _refuse_existing(target: Path, overwrite: bool) -> None:
 
 
 def _beside(target: Path) -> Path:
-    return target.with_name(f".floatref-{secrets.token_hex(6)}{target.suffix}")
+    """Return a new name beside ``target``; what killed processes left there is removed."""
+    sweep_once(target.parent)
+    return target.with_name(own_name(suffix=target.suffix))
 
 
 def _check_replaceable(target: Path, path: Path, document: str) -> None:
@@ -101,7 +103,7 @@ def _explain_errors(path: Path, target: Path) -> Iterator[None]:
         yield
     except OSError as error:
         where = str(error.filename or target)
-        if where != str(target) and ".floatref-" not in where:
+        if where != str(target) and PREFIX not in where:
             raise
         reason = error.strerror or str(error)
         raise InputError(
