@@ -7,6 +7,7 @@ process group is killed, which a process can leave.
 
 import ctypes
 import os
+import re
 import secrets
 import signal
 import subprocess
@@ -15,13 +16,17 @@ import time
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from threading import Lock
 
+from floatref.files.owners import is_abandoned, owner_mark
 from floatref_conformance.proving_ground.cache import FOLDER_VARIABLE
 
 MARK = "FLOATREF_DEVICE"
 """Environment variable that identifies the device to which a process belongs."""
+MARKED = re.compile(MARK.encode() + rb"=(?P<owner>[0-9a-f]{8}-[0-9]+-[0-9]+)-[0-9a-f]+")
+"""That variable, with the mark of the judge that started the device."""
 PATIENCE_S = 10.0
 """Time in s to kill processes that do not end, or that fork as fast as they end."""
 PROC = Path("/proc")
@@ -49,8 +54,9 @@ class Descendants:
     """
 
     def __init__(self) -> None:
-        """Begin to adopt orphans."""
-        self._mark = f"{MARK}={secrets.token_hex(8)}".encode()
+        """Begin to adopt orphans; kill what judges that were killed have left running."""
+        _kill_abandoned()
+        self._mark = f"{MARK}={owner_mark()}-{secrets.token_hex(8)}".encode()
         self._others = frozenset(p.pid for p in processes() if p.parent == os.getpid())
         with _adopting:
             _marks.add(self._mark)
@@ -122,6 +128,20 @@ def _has_mark(process: Process, marks: Iterable[bytes]) -> bool:
             (PROC / f"{process.pid}/environ").read_bytes().split(b"\0")
         )
     return False
+
+
+@cache
+def _kill_abandoned() -> None:
+    """Kill processes of devices whose judge does not run any more, once in a process.
+
+    A device ends with its judge; what it has started itself, or left before, may not.
+    """
+    for process in processes():
+        with suppress(OSError):
+            words = (PROC / f"{process.pid}/environ").read_bytes().split(b"\0")
+            found = next(filter(None, map(MARKED.fullmatch, words)), None)
+            if found and is_abandoned(found["owner"].decode("ascii")):
+                os.kill(process.pid, signal.SIGKILL)
 
 
 def _kill(process: Process, device: int) -> None:

@@ -13,6 +13,7 @@ from time import monotonic
 from floatref_conformance.devices.descendants import Descendants
 from floatref_conformance.devices.pipes import Feed, Lines, Tail
 from floatref_conformance.errors import DeviceError, DeviceHung
+from floatref_conformance.parent_death import killed_with_parent
 
 STEP_S = 0.05
 """Interval in which a silent process is inspected, in s."""
@@ -38,6 +39,8 @@ def start(argv: Sequence[str], folder: Path) -> "Child":
             cwd=folder,
             env=descendants.environment,
             start_new_session=sys.platform != "win32",
+            # In place of a guard that runs beside: nothing has to be awake when the judge is killed.
+            preexec_fn=killed_with_parent(),
         )
         return Child(process, descendants)
     except BaseException as error:
