@@ -39,7 +39,7 @@ def start(argv: Sequence[str], folder: Path) -> "Child":
             cwd=folder,
             env=descendants.environment,
             start_new_session=sys.platform != "win32",
-            # In place of a guard that runs beside: nothing has to be awake when the judge is killed.
+            # No guard beside it: nothing has to be awake when the judge is killed.
             preexec_fn=killed_with_parent(),
         )
         return Child(process, descendants)

@@ -55,7 +55,7 @@ def test_this_machine_needs_no_tls(host: str, protocol: str, port: int) -> None:
 @given(st.sampled_from(HOSTS), st.sampled_from(OTHERS), st.integers(1, 65535))
 def test_beyond_it_plain_addresses_are_refused(host: str, protocol: str, port: int) -> None:
     for address in (f"{protocol}://{host}:{port}", f"{host}:{port}", host):
-        with pytest.raises(InputError, match="not encrypted.*tls://.*--unencrypted-cluster"):
+        with pytest.raises(InputError, match=r"not encrypted.*tls://.*--unencrypted-cluster"):
             check_encrypted(address, False)
         check_encrypted(address, True)
     check_encrypted(f"tls://{host}:{port}", False)
