@@ -5,6 +5,8 @@ import sys
 
 import pytest
 
+from floatref.cli.batch.interruption import LATE
+
 pytestmark = pytest.mark.posix
 
 LOST = """
@@ -31,6 +33,4 @@ def test_an_exception_that_python_drops_ends_the_work_later() -> None:
     )
     assert done.stdout == "Interrupt\n"
     assert done.returncode == 130
-    assert (
-        done.stderr == "Interrupted; what still ran 0.5 s later was killed: go on with --resume\n"
-    )
+    assert done.stderr == LATE.format(0.5)
