@@ -16,6 +16,7 @@ from floatref.values.recording import Recording
 from floatref_conformance.devices.delivered import take
 from floatref_conformance.devices.interface import Description, Device, visible
 from floatref_conformance.errors import DeviceError, DeviceRefused, DeviceSkipped
+from floatref_conformance.room import TEMPORARY, bytes_of, needing_room
 
 MAX_INTERVAL_M = 0.25
 """Largest profile interval from which the IRI can be computed, in m."""
@@ -55,13 +56,16 @@ def exercise(
 
     Raises DeviceError if the profile is unusable, DeviceHung if it does not come in time,
     DeviceRefused for an error in its place, DeviceSkipped if the device does not process the
-    recording.
+    recording, NoRoom if the disk is full.
 
     The device sees a new folder with a neutral name and the channels that it may receive.
     """
-    with scratch_folder("case") as made:
+    given = visible(recording, description.channels)
+    with (
+        scratch_folder("case") as made,
+        needing_room(made.parent, bytes_of(given), TEMPORARY),
+    ):
         folder = made.resolve()
-        given = visible(recording, description.channels)
         write_recording(given, folder / "recording")
         target = folder / "profile"
         try:

@@ -14,7 +14,7 @@ from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.editions.edition import Edition, find_edition
-from floatref_conformance.errors import DeviceError, SuiteError
+from floatref_conformance.errors import DeviceError, NoRoom, SuiteError
 from floatref_conformance.judge.bench import Ahead
 from floatref_conformance.judge.events import (
     CaseReplayed,
@@ -83,13 +83,13 @@ def run(plan: Plan, emit: Emit, judge_all: JudgeAll | None = None) -> RunResult:
     """Return the result of ``plan``; ``emit`` is called with every event.
 
     ``judge_all``, if given, judges the checks of the plan in another way.
-    Raises SuiteError, also for sys.exit in a check; there is then no verdict. The device is
-    closed once in every case.
+    Raises NoRoom for a full disk and SuiteError, also for sys.exit in a check; there is then no
+    verdict. The device is closed once in every case.
     """
     closing = Closing(plan.device)
     try:
         return _run(plan, emit, closing, judge_all)
-    except (SuiteError, BrokenPipeError, KeyboardInterrupt):
+    except (SuiteError, NoRoom, BrokenPipeError, KeyboardInterrupt):
         raise
     except (Exception, SystemExit) as error:
         text = " ".join(str(error).split())
