@@ -201,7 +201,8 @@ class RunResult:
     ``replayed`` has for every case stored by an earlier run: ``file``, ``check``,
     ``outcome``, ``reason``, and ``value``, ``limit`` and ``unit`` of its worst measurement.
     ``timeout_s``, the time for a recording, and ``report``, the folder of the report, are as the
-    user gave them; None if not given. ``edition`` is the name of the checks' edition.
+    user gave them; None if not given. ``edition`` is the name of the checks' edition, and
+    ``variables`` are those of the environment that the device got on request.
     """
 
     device: Mapping[str, Any]
@@ -213,6 +214,7 @@ class RunResult:
     timeout_s: float | None = None
     report: Path | None = None
     edition: str = EDITION
+    variables: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> Verdict:

@@ -21,7 +21,7 @@ from pathlib import Path
 from threading import Lock
 
 from floatref.files.owners import is_abandoned, owner_mark
-from floatref_conformance.proving_ground.cache import FOLDER_VARIABLE
+from floatref_conformance.devices.environment import environment_of
 
 MARK = "FLOATREF_DEVICE"
 """Environment variable that identifies the device to which a process belongs."""
@@ -53,9 +53,10 @@ class Descendants:
     no process can enter, or has the mark of another device.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, variables: Iterable[str] = ()) -> None:
         """Begin to adopt orphans; kill what judges that were killed have left running."""
         _kill_abandoned()
+        self._variables = tuple(variables)
         self._mark = f"{MARK}={owner_mark()}-{secrets.token_hex(8)}".encode()
         self._others = frozenset(p.pid for p in processes() if p.parent == os.getpid())
         with _adopting:
@@ -64,10 +65,9 @@ class Descendants:
 
     @property
     def environment(self) -> dict[str, str]:
-        """The environment for the device: the judge's and the mark, without the cache folder."""
+        """The environment for the device: what it is allowed, its ``variables``, and the mark."""
         name, _, value = self._mark.decode().partition("=")
-        ours = {n: v for n, v in os.environ.items() if n != FOLDER_VARIABLE}
-        return {**ours, name: value}
+        return {**environment_of(self._variables), name: value}
 
     def end(self, device: "subprocess.Popen[bytes] | None") -> None:
         """Kill ``device`` and its descendants, and wait until they have ended."""

@@ -23,12 +23,13 @@ SHOWN_LINES = 5
 SHOWN_LENGTH = 200
 
 
-def start(argv: Sequence[str], folder: Path) -> "Child":
+def start(argv: Sequence[str], folder: Path, variables: Sequence[str] = ()) -> "Child":
     """Start ``argv`` in ``folder`` without a shell, in a session of its own.
 
-    Raises DeviceError if it cannot be started.
+    It gets the ``variables`` beside those that every device gets. Raises DeviceError if it cannot
+    be started.
     """
-    descendants, process = Descendants(), None
+    descendants, process = Descendants(variables), None
     try:
         process = subprocess.Popen(
             list(argv),

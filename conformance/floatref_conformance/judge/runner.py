@@ -53,8 +53,9 @@ class Plan:
         waivers: reasons of known failures, by the id of the check.
         ahead: whether the next cases are simulated while the device works.
         edition: of the checks.
-        timeout_s, report: time for a recording in s, and folder of the report; the report names
-            both, so that the run can be reproduced.
+        timeout_s, report, variables: time for a recording in s, folder of the report, and names of
+            variables that the device gets; the report names them, so that the run can be
+            reproduced.
     """
 
     spec: str
@@ -71,6 +72,7 @@ class Plan:
     timeout_s: float | None = None
     report: Path | None = None
     edition: Edition = field(default_factory=find_edition)
+    variables: tuple[str, ...] = ()
 
 
 Emit = Callable[[Event], None]
@@ -233,5 +235,6 @@ def _result(
         replayed=tuple(replayed),
         timeout_s=plan.timeout_s,
         report=plan.report,
+        variables=plan.variables,
         edition=plan.edition.name,
     )

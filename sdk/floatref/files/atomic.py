@@ -14,17 +14,18 @@ SAMPLE_SUFFIXES = (".f64", ".u8")
 
 
 @contextmanager
-def replace_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
+def replace_file(path: Path, overwrite: bool = False, follow: bool = True) -> Iterator[Path]:
     """Yield a path beside ``path``, with its suffix, to write to; rename it at the end.
 
     After any exception, KeyboardInterrupt included, the new file is gone and ``path`` is as
-    before. Raises InputError if ``path`` exists and ``overwrite`` is false, is not a file, or
-    cannot be written.
+    before. What a link points to is replaced; without ``follow`` the link itself, for a folder in
+    which others may have planted it. Raises InputError if ``path`` exists and ``overwrite`` is
+    false, is not a file, or cannot be written.
     """
-    target = _target(path, overwrite)
+    target = _target(path, overwrite, follow)
     beside = _beside(target)
     with _explain_errors(path, target):
-        if target.exists() and not target.is_file():
+        if target.exists() and not (target.is_file() or target.is_symlink()):
             raise InputError(f"{path}: is not a file; give the name of a file to write")
         try:
             yield beside
@@ -63,10 +64,15 @@ def check_target(path: Path, overwrite: bool = False) -> None:
     _target(path, overwrite)
 
 
-def _target(path: Path, overwrite: bool) -> Path:
-    """Return the path behind any links, so that a link stays a link."""
+def _target(path: Path, overwrite: bool, follow: bool = True) -> Path:
+    """Return the path behind any links, so that a link stays a link.
+
+    Without ``follow`` only the links of its folder are resolved.
+    """
     try:
         target = Path(os.path.realpath(path))
+        if not follow and path.name not in ("", ".."):
+            target = Path(os.path.realpath(path.parent), path.name)
     except ValueError as error:
         raise InputError(f"{str(path)!a}: no possible file name; choose another") from error
     _refuse_existing(target, overwrite)
