@@ -163,6 +163,12 @@ def _find_cluster(address: str) -> Iterator["Client"]:
             f"cluster {address}: no scheduler answers there ({error}); start one, or leave "
             "--cluster out"
         ) from error
+    except TypeError as error:
+        # What Dask raises for an address with TLS where its configuration names no certificate.
+        raise InputError(
+            f"cluster {address}: speaks TLS, and no certificate is set here; set "
+            "DASK_DISTRIBUTED__COMM__TLS__CA_FILE, __CLIENT__CERT and __CLIENT__KEY"
+        ) from error
     try:
         yield client
     finally:

@@ -24,7 +24,7 @@ def hold_signals() -> Iterator[None]:
         yield
         return
     heard: list[int] = []
-    before = {number: signal.getsignal(number) for number in SIGNALS}
+    before: dict[int, Any] = {number: signal.getsignal(number) for number in SIGNALS}
     caught = {number: handler for number, handler in before.items() if callable(handler)}
     try:
         for number in caught:
@@ -34,8 +34,4 @@ def hold_signals() -> Iterator[None]:
         for number, handler in caught.items():
             signal.signal(number, handler)
         if heard:
-            _call(caught[heard[0]], heard[0])
-
-
-def _call(handler: Any, number: int) -> None:
-    handler(number, None)
+            caught[heard[0]](heard[0], None)
