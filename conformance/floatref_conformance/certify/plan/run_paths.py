@@ -70,12 +70,15 @@ def names_of(paths: Sequence[Path]) -> tuple[str, ...]:
 
 def _runs(text: str, folder: Path) -> Iterator[Path]:
     if PATTERN.search(text) and not (folder / text).exists():
-        _refuse_vast(_before_pattern(folder / text), text)
+        if "**" in text:
+            _refuse_vast(_before_pattern(folder / text), text)
         matches = sorted(glob.glob(text, root_dir=folder, recursive=True), key=natural)
         if not matches:
             raise InputError(f"{folder / text}: no file matches this pattern; correct it")
         for match in matches:
-            yield from _within(check_exists(match, folder))
+            path = check_exists(match, folder)
+            _refuse_vast(path, match)
+            yield from _within(path)
     else:
         path = check_exists(text, folder)
         _refuse_vast(path, text)
