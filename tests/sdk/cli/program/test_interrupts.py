@@ -80,3 +80,22 @@ def test_a_signal_that_was_ignored_stays_so(tmp_path: Path, number: signal.Signa
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "goes on\n", "")
+
+
+def test_a_command_whose_loading_is_interrupted_says_what_is_missing(tmp_path: Path) -> None:
+    """Most of the time of a short command is the loading of modules."""
+    text = (
+        "import os, signal, sys\n"
+        "class Hit:\n"
+        "    def find_spec(name, path=None, target=None):\n"
+        "        if name == 'floatref_conformance.cli.table':\n"
+        "            os.kill(os.getpid(), signal.SIGTERM)\n"
+        "            [0 for _ in range(10**6)]\n"
+        "sys.meta_path.insert(0, Hit)\n"
+        "sys.argv[1:] = ['table', '--json']\n"
+        "from floatref_conformance.__main__ import start\n"
+        "start()\n"
+    )
+    words = [sys.executable, "-c", text]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "Interrupted: no table\n")
