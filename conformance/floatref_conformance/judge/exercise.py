@@ -62,7 +62,7 @@ def exercise(
     """
     given = visible(recording, description.channels)
     with (
-        scratch_folder("case") as made,
+        scratch_folder("run") as made,
         needing_room(made.parent, bytes_of(given), TEMPORARY),
     ):
         folder = made.resolve()
