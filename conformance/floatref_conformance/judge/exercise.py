@@ -11,6 +11,7 @@ import numpy as np
 from floatref.errors import FloatrefError
 from floatref.files import read_profile, write_recording
 from floatref.files.scratch import scratch_folder
+from floatref.files.sources import real_path
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref_conformance.devices.delivered import take
@@ -65,7 +66,7 @@ def exercise(
         scratch_folder("run") as made,
         needing_room(made.parent, bytes_of(given), TEMPORARY),
     ):
-        folder = made.resolve()
+        folder = real_path(made)
         write_recording(given, folder / "recording")
         target = folder / "profile"
         try:
@@ -97,7 +98,7 @@ def _ask(question: Callable[[], Answer]) -> Answer:
 def _read(target: Path) -> Profile:
     """Return the profile in ``target``, read from a copy and held in memory."""
     with scratch_folder("copy") as made:
-        copy = made.resolve() / target.name
+        copy = real_path(made) / target.name
         take(target, copy)
         try:
             profile = read_profile(copy)

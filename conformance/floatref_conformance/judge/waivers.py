@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from floatref.errors import InputError
+from floatref.files import read_bytes
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 
@@ -19,11 +20,10 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     is named twice, and for a file that is not text.
     """
     try:
-        if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"{path}: larger than any list of waivers; name another file")
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}; name a file of waivers") from error
+        content = read_bytes(path, MOST_BYTES, "list of waivers")
+        lines = content.decode("utf-8-sig").splitlines()
+    except InputError as error:
+        raise InputError(f"{error}; name a file of waivers") from error
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path}: not UTF-8; write one check per line: its id, then the reason"

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
-from floatref.files.sources import open_bytes
+from floatref.files.mapped_files import map_bytes
 from floatref.values.arrays import BoolArray, FloatArray, frozen
 from floatref.values.scanning import chunks
 
@@ -58,13 +58,10 @@ def free_name(stem: str, suffix: str, taken: set[str]) -> str:
 
 
 def _map_file(path: Path, item_bytes: int) -> NDArray[np.uint8]:
-    with open_bytes(path) as stream:
-        size = stream.seek(0, 2)
-        if size == 0:
-            raise InputError(f"{path}: empty; copy the complete file")
-        if size % item_bytes:
-            raise InputError(
-                f"{path}: {size} bytes are not a whole number of float64 samples; "
-                "the file is truncated or of another type, copy or convert it again"
-            )
-        return np.memmap(stream, dtype=np.uint8, mode="r")
+    found = map_bytes(path)
+    if found.size % item_bytes:
+        raise InputError(
+            f"{path}: {found.size} bytes are not a whole number of float64 samples; "
+            "the file is truncated or of another type, copy or convert it again"
+        )
+    return found
