@@ -60,8 +60,11 @@ def is_worked_in(out: Path) -> bool:
     try:
         import fcntl
 
-        with (out / WORKING).open("rb") as stream:
-            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        handle = os.open(out / WORKING, os.O_RDWR | os.O_CLOEXEC)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        finally:
+            os.close(handle)
     except FileNotFoundError:
         return False
     except (ImportError, OSError):
