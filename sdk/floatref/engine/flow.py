@@ -233,8 +233,8 @@ def _guard(stage: Stage, call: Callable[[], T]) -> T:
     """Name the stage in every error that it raises, ours or a vendor's."""
     try:
         return call()
-    except FloatrefError:
+    except (FloatrefError, KeyboardInterrupt):
         raise
-    except Exception as error:
+    except BaseException as error:
         reason = f"{type(error).__name__}: {error}"
         raise StageError(f"stage {stage.name}: {reason}") from error

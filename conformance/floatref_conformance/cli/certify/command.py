@@ -136,14 +136,10 @@ def _certify_with_progress(
     from rich.progress import Progress
 
     from floatref_conformance.certify.certifying import certify as certified
-    from floatref_conformance.cli.following import end_like_an_interrupt
 
     console = Console(stderr=True)
     shown = console.is_terminal
-    with (
-        end_like_an_interrupt(),
-        Progress(console=console, transient=True, disable=not shown) as bar,
-    ):
+    with Progress(console=console, transient=True, disable=not shown) as bar:
         task = bar.add_task("", total=1.0)
         return certified(
             plan,
