@@ -39,7 +39,8 @@ def read(path: Path) -> Profile:
     table = table[np.isfinite(table).all(axis=1)]
     interval_m = FOOT_M * float(np.median(np.diff(table[:, 0])))
     tracks = (
-        ProfileTrack.of(name, INCH_M * table[:, column]) for name, column in (("left", 1), ("right", 3))
+        ProfileTrack.of(name, INCH_M * table[:, column])
+        for name, column in (("left", 1), ("right", 3))
     )
     return Profile(interval_m, tuple(tracks))
 
@@ -96,7 +97,9 @@ def main(folder: Path) -> None:
             f"{first} {second} {track}: {gains[0]:+.2f} {gains[1]:+.2f} "
             f"± {found.height_sigma:.2f}, {long:.1f}"
         )
-    print(f"symmetric part: mean {np.mean(symmetric):+.3f} %, largest {np.max(np.abs(symmetric)):.3f} %")
+    print(
+        f"symmetric part: mean {np.mean(symmetric):+.3f} %, largest {np.max(np.abs(symmetric)):.3f} %"
+    )
     print(f"healthy: {count_named(fits, 0.0)[0]} of {len(fits)} wheel paths fail")
     for percent in (TRUE_PERCENT, -TRUE_PERCENT):
         paths, of, runs, pairs = count_named(fits, percent)

@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from floatref.values.arrays import FloatArray
-from floatref_conformance.certify.fitting.spectra import Windows
+from floatref_conformance.certify.fitting.spectra import Spectra, Windows
 
 BAND = 2.0 ** (1.0 / 3.0)
 """Ratio of the limits of a band, a third of an octave."""
@@ -179,7 +179,7 @@ def _parts(wave_number: FloatArray, windows: int) -> list[slice]:
 
 
 def _band(
-    wave_number: FloatArray, energies: FloatArray, cross: FloatArray, weights: FloatArray
+    wave_number: FloatArray, energies: FloatArray, cross: Spectra, weights: FloatArray
 ) -> tuple[float, float, float, float, float]:
     """Return a band's `Bands`: energies have shape (2, windows, waves)."""
     usual = np.maximum(np.median(energies.sum(axis=2), axis=1), 1e-300)

@@ -15,7 +15,7 @@ from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.undoing import Compared, compare_track, find_unusable
 
 LEAST_MISSING_M = 1.0
-DISTANCE_PERCENT, HEIGHT_PERCENT = 0.15, 1.0
+DISTANCE_PERCENT, HEIGHT_PERCENT, LONG_WAVE_PERCENT = 0.15, 1.0, 5.0
 """Errors that count where a worksheet sets no limits."""
 LEAST_EXPLAINED = 0.1
 """An error within the limits is named only for a run below the limits, from this share on."""
@@ -125,8 +125,9 @@ def _heights(now: Compared, fit: Fit, limits: CertificationLimits) -> Iterator[_
 def _long_waves(fit: Fit, limits: CertificationLimits) -> Iterator[_Suspect]:
     """Yield what is wrong with long waves: the vehicle moves in them, or a filter takes them."""
     waves, limit = fit.long_waves, limits.long_wave_percent
-    bound = LEAST_LONG_PERCENT if limit is None else limit
-    if waves is not None and waves.place_percent > bound + 2.0 * waves.place_sigma:
+    bound = LONG_WAVE_PERCENT if limit is None else limit
+    beyond = waves is not None and waves.error_percent - 2.0 * waves.error_sigma > bound
+    if waves is not None and beyond and not waves.at_longest:
         text = (
             f"waves of {waves.wave_m:.0f} m {waves.error_percent:.0f} % off in height and place: "
             "the height sensor and the accelerometer are not of one moment or place"

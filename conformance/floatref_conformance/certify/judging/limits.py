@@ -26,7 +26,7 @@ class CertificationLimits:
     distance_percent: float | None = 0.15
     height_percent: float | None = 1.0
     iri_bias_percent: float | None = None
-    long_wave_percent: float | None = 10.0
+    long_wave_percent: float | None = 5.0
     quiescent_m_per_km: float = 0.047
     bounce_m_per_km: float = 0.126
 

@@ -35,7 +35,8 @@ HEIGHT = (
 
 LONG_WAVES = (
     "ours: what is left of the vehicle's own motion where height and acceleration are not of one "
-    "moment and place, or another filter; 10 % of a wave, in height and place together"
+    "moment and place, or another filter; 5 % of a wave, half of what 10 ms leave with the car of "
+    "the IRI"
 )
 FINEST = 0.001
 """Percent; a smaller uncertainty is given as this one."""
