@@ -97,9 +97,8 @@ def main(folder: Path) -> None:
             f"{first} {second} {track}: {gains[0]:+.2f} {gains[1]:+.2f} "
             f"± {found.height_sigma:.2f}, {long:.1f}"
         )
-    print(
-        f"symmetric part: mean {np.mean(symmetric):+.3f} %, largest {np.max(np.abs(symmetric)):.3f} %"
-    )
+    mean, largest = np.mean(symmetric), np.max(np.abs(symmetric))
+    print(f"symmetric part: mean {mean:+.3f} %, largest {largest:.3f} %")
     print(f"healthy: {count_named(fits, 0.0)[0]} of {len(fits)} wheel paths fail")
     for percent in (TRUE_PERCENT, -TRUE_PERCENT):
         paths, of, runs, pairs = count_named(fits, percent)

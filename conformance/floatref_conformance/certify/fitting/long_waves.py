@@ -4,8 +4,9 @@ The body answers the road around its bounce of 1 to 3 Hz, which are these waves 
 profilers. Height H of the accelerometer and its distance to the road are only the road z together:
 a range that is late by τ leaves z(t-τ) + H(t) - H(t-τ). Beside the short waves, in which the body
 is at rest, a wave of the frequency f is taken times $1 + T (e^{2πi f τ} - 1)$, T being the body's
-answer: 10 ms change its height or its place by 20 to 40 % of itself in a van, by 10 to 14 % in the car of the IRI, whose dampers are hard. So does a laser ahead of its
-accelerometer by the way of this time, and a range or an acceleration on another scale leaves a
+answer: 10 ms change its height or its place by 20 to 40 % of itself in a van of the proving
+ground, and by 10 to 14 % in the car of the IRI, whose dampers are hard. So does a laser ahead of
+its accelerometer by the way of this time, and a range or an acceleration on another scale leaves a
 part of T as well.
 
 That is common to every pass, whatever its line, and coherent with the road: another line on the

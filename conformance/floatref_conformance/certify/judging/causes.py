@@ -20,6 +20,7 @@ DISTANCE_PERCENT, HEIGHT_PERCENT, LONG_WAVE_PERCENT = 0.15, 1.0, 5.0
 LEAST_EXPLAINED = 0.1
 """An error within the limits is named only for a run below the limits, from this share on."""
 LEAST_LONG_PERCENT = 10.0
+SKEW = "height sensor and accelerometer not of one moment or place"
 CERTAIN = 3.0
 """Differences between waves count beyond this number of sigma."""
 
@@ -44,8 +45,9 @@ def causes(
     """Return why ``track`` of ``run`` does not agree with ``reference``; empty if nothing is wrong.
 
     Ids are not-this-road, inverted, offset, distance, missing, height-scale, short-waves, skew,
-    long-waves, wander and noise. They are undone in this order, each after those before it, so that what
-    they explain adds up; the largest comes first. Both profiles are in m, on the section alone.
+    long-waves, wander and noise. They are undone in this order, each after those before it, so that
+    what they explain adds up; the largest comes first. Both profiles are in m, on the section
+    alone.
     """
     before = compare_track(reference, run, track).correlation()
     if not fit.found:
@@ -126,13 +128,12 @@ def _long_waves(fit: Fit, limits: CertificationLimits) -> Iterator[_Suspect]:
     """Yield what is wrong with long waves: the vehicle moves in them, or a filter takes them."""
     waves, limit = fit.long_waves, limits.long_wave_percent
     bound = LONG_WAVE_PERCENT if limit is None else limit
-    beyond = waves is not None and waves.error_percent - 2.0 * waves.error_sigma > bound
-    if waves is not None and beyond and not waves.at_longest:
-        text = (
-            f"waves of {waves.wave_m:.0f} m {waves.error_percent:.0f} % off in height and place: "
-            "the height sensor and the accelerometer are not of one moment or place"
-        )
-        yield _Suspect("skew", text, None, True)
+    if waves is not None and waves.error_percent - 2.0 * waves.error_sigma > bound:
+        which = f"waves of {waves.wave_m:.0f} m {waves.error_percent:.0f} % off in height and place"
+        if waves.at_longest:
+            yield _Suspect("long-waves", f"{which}: another filter, or {SKEW}", None, True)
+        else:
+            yield _Suspect("skew", f"{which}: {SKEW}", None, True)
         return
     long = fit.long_percent
     if abs(long) > max(CERTAIN * fit.long_sigma, LEAST_LONG_PERCENT):
