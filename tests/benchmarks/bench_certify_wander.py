@@ -124,11 +124,11 @@ def main(first: int = 7000, count: int = 200) -> None:
     false, tried, found, by = 0, Counter[str](), Counter[str](), Counter[str]()
     for seed in range(first, first + count):
         healthy, fault, wrong = try_road(seed)
-        if healthy:
-            false += 1
-            print(f"seed {seed}: healthy, fails {', '.join(sorted(healthy))}", flush=True)
-        if not wrong:
-            print(f"seed {seed}: {fault} not found", flush=True)
+        false += bool(healthy)
+        print(
+            f"seed {seed}: healthy fails {sorted(healthy)}, {fault} fails {sorted(wrong)}",
+            flush=True,
+        )
         tried[fault] += 1
         found[fault] += bool(wrong)
         by.update(f"{fault}: {id_}" for id_ in wrong)
