@@ -35,6 +35,7 @@ class Estimate:
 
     Attributes:
         gain: of all waves, see `SymmetricGain`.
+        incoherent: what is not common to both, the mean of its bands, see `Bands`.
         division, division_sigma: see `find_division`.
         shift_m, slope: lag at ``middle_m``, and per m.
         lags_m: of every window, shape (windows,).
@@ -42,6 +43,7 @@ class Estimate:
     """
 
     gain: SymmetricGain
+    incoherent: float
     division: float
     division_sigma: float
     shift_m: float
@@ -129,11 +131,13 @@ def _summarise(
 ) -> Estimate:
     """Return the estimate of the solved normal equations."""
     middle = float(windows.at_m.mean())
-    division, division_sigma = find_division(bands_of(windows, weights))
+    bands = bands_of(windows, weights)
+    division, division_sigma = find_division(bands)
     line = _line(windows.at_m - middle, each)
     (shift, slope), (shift_sigma, slope_sigma) = line.solution(), line.sigma()
     return Estimate(
         gain=gain,
+        incoherent=bands.mean_incoherent,
         division=division,
         division_sigma=division_sigma,
         shift_m=float(shift),

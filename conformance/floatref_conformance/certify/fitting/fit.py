@@ -152,7 +152,7 @@ def _fit_windows(pair: _Pair, line: Line) -> Fit:
 def _summarise(pair: _Pair, line: Line, windows: Windows, fitted: Estimate) -> Fit:
     """Return the fit of the last round, and what the long waves add to it."""
     long, body = _long_waves(pair, line)
-    gain = fitted.gain if long is None else fitted.gain.with_noise(long)
+    gain = fitted.gain if long is None else fitted.gain.with_noise(long, fitted.incoherent)
     height = math.exp(gain.log_height)
     beyond = None if long is None else examine_long_waves(long, gain)
     return Fit(

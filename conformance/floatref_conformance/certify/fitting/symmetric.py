@@ -62,6 +62,12 @@ class Bands:
         """1-sigma of ``phase`` in rad."""
         return np.asarray(self.sigma * np.exp(self.incoherent))
 
+    @property
+    def mean_incoherent(self) -> float:
+        """Mean of ``incoherent``, in which bands count as they do for the gain."""
+        weights = 1.0 / np.square(self.sigma)
+        return float(weights @ self.incoherent / weights.sum())
+
 
 @dataclass(frozen=True)
 class SymmetricGain:
@@ -77,10 +83,12 @@ class SymmetricGain:
     smoothing_m2: float
     smoothing_sigma: float
 
-    def with_noise(self, longest: Bands) -> "SymmetricGain":
-        """Return it with the sigma of how the noise that ``longest`` show divides."""
-        weights = 1.0 / np.square(longest.sigma)
-        noise = float(weights @ longest.incoherent / weights.sum())
+    def with_noise(self, longest: Bands, most: float) -> "SymmetricGain":
+        """Return it with the sigma of how the noise that ``longest`` show divides.
+
+        There is not more noise than ``most``, what is not common to all other waves.
+        """
+        noise = min(longest.mean_incoherent, most)
         sigma = math.hypot(self.log_sigma, math.sqrt(DIVISION_VARIANCE) * noise)
         return replace(self, log_sigma=sigma)
 
