@@ -16,6 +16,7 @@ from floatref.engine import flow
 from floatref.engine.axis_place import Place, first_point
 from floatref.engine.collecting import collect_profile
 from floatref.engine.fall_back import fill_gaps, gaps_of
+from floatref.engine.kept_blocks import KeptBlocks
 from floatref.engine.height_skew import Aligned, align_heights
 from floatref.engine.plugins import Plugins, plugins
 from floatref.engine.road_distance import RoadDistance, correct_distance
@@ -190,7 +191,9 @@ def _run_and_collect(
     order: _Order, source: Source, stages: list[Stage], progress: Progress | None
 ) -> Profile:
     """Pass the blocks through the stages and return the resulting profile."""
-    header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
+    # A part of a longer run has a bounded length.
+    tape = flow.Tape if order.place is None else KeptBlocks
+    header, blocks = flow.run(stages, source.header, _report_progress(source, progress), tape)
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
     laser = record_laser(header.setup, header.tracks, stages)
