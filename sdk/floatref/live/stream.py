@@ -16,6 +16,7 @@ from floatref.live.gathering import Gathering
 from floatref.live.points import LivePoints
 from floatref.live.saved_state import load_state, save_state
 from floatref.live.starting import settle
+from floatref.live.warming import warm
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup
 
@@ -226,6 +227,7 @@ def start_stream(
     """
     clocks = read_declarations(channels)
     order = settle(setup, clocks, pipeline, settings, late_s)
+    warm(order, provisional)
     return LiveStream(Following(order, provisional), Entrance(clocks))
 
 
@@ -235,4 +237,6 @@ def resume_stream(path: Path | str) -> LiveStream:
     Provisional points begin anew, and are not valid before the vehicle has gone a wavelength.
     Raises InputError for a file that is no saved stream, or of another version of floatref.
     """
-    return LiveStream(*load_state(Path(path)))
+    following, entrance = load_state(Path(path))
+    warm(following.order, following.forward is not None)
+    return LiveStream(following, entrance)
