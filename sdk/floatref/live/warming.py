@@ -1,8 +1,8 @@
 """Kernels and modules of a pipeline, loaded by a short drive before the first sample comes.
 
-The first window of a stream would otherwise load them while samples come: some hundred compiled
-functions, each of which holds the interpreter for milliseconds, or for a second where it is still to
-be compiled. The drive is made up: a body that bounces over a few waves, brakes to a standstill and
+The first window of a stream would otherwise load them while samples come: up to a hundred compiled
+functions, each of which holds the interpreter for milliseconds, or for a second where it has still
+to be compiled. The drive is made up: a body that bounces over a few waves, brakes to a standstill and
 goes on. What comes of it is thrown away, and so is a refusal of it.
 """
 
@@ -46,16 +46,18 @@ def warm(order: Order, provisional: bool) -> None:
         drive(order, provisional)
 
 
-def drive(order: Order, provisional: bool) -> None:
-    """Pass the drive through a stream of this ``order``."""
-    following = Following(replace(order, pipelines=order.pipelines[:1]), provisional)
+def drive(order: Order, provisional: bool) -> int:
+    """Pass the drive through a stream of this ``order``, and return the number of its points.
+
+    The pipeline may refuse the drive; there are no points then.
+    """
+    following, count = Following(replace(order, pipelines=order.pipelines[:1]), provisional), 0
     try:
         for pieces in made_up(order):
-            list(following.push(pieces))
-        list(following.finish())
+            count += sum(map(len, following.push(pieces)))
+        return count + sum(map(len, following.finish()))
     except FloatrefError:
-        # The pipeline refuses the drive, as it may; the stream says what it refuses later.
-        return
+        return 0
 
 
 def made_up(order: Order) -> Iterator[dict[ChannelId, Piece]]:

@@ -1,7 +1,8 @@
 """What made the windows of a profile: a record that stays short however long the stream was.
 
-A document of a profile is read up to 4 MiB, and a window's record takes 2 to 4 KiB: a day of driving
-has a thousand windows. The first and the last ones are kept whole, those between them are counted.
+A document of a profile is read up to 4 MiB, and a window's record takes 2 to 4 KiB: a day of
+driving has a thousand windows. The first and the last ones are kept whole, those between them are
+counted.
 """
 
 import json
