@@ -69,8 +69,8 @@ def test_small_pushes_are_handed_over_twice_a_second():
         if gathering.take(push, entrance):
             handed += 1
             gathering.hand_over()
-    # The sample at 0 s reaches the first tick.
-    assert handed == 21
+    # The ticks of ten seconds, of which the sample at 0 s reaches the first.
+    assert handed == 20
 
 
 def test_a_push_that_is_refused_leaves_nothing_behind():

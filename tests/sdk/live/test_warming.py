@@ -79,6 +79,7 @@ def test_the_first_window_loads_no_kernel_and_no_library(pipeline):
 def test_a_process_warms_a_pipeline_once(drive, monkeypatch):
     recording = drive([(20.0, 5.0)])
     driven, known = [], set()
+    monkeypatch.setattr("floatref.live.stream.warm", warming.warm)
     monkeypatch.setattr(warming, "drive", lambda order, provisional: driven.append(order))
     monkeypatch.setattr(warming, "_warmed", lambda: known)
     for pipeline in ("temporal-basic", "temporal-basic", "spatial-hpf"):
