@@ -3,7 +3,8 @@
 A simulated loop of ten minutes is driven again and again, see `live_loop`; pieces of 10 ms are
 pushed. `--hours` pushes as fast as the stream takes the samples, and prints the multiple of real
 time, by the clock and by the processor, and memory, threads, open files and gaps every quarter of
-an hour. `--paced` pushes at real time, as a vehicle does, and prints how long the pushes took. Run as
+an hour. `--paced` pushes at real time, as a vehicle does, and prints how long the pushes took.
+Run as
 
     python tests/benchmarks/bench_live.py --pipeline NAME --hours H [--push-ms MS]
     python tests/benchmarks/bench_live.py --pipeline NAME --paced --minutes M [--freeze]

@@ -16,8 +16,8 @@ from floatref.engine import flow
 from floatref.engine.axis_place import Place, first_point
 from floatref.engine.collecting import collect_profile
 from floatref.engine.fall_back import fill_gaps, gaps_of
-from floatref.engine.kept_blocks import KeptBlocks
 from floatref.engine.height_skew import Aligned, align_heights
+from floatref.engine.kept_blocks import KeptBlocks
 from floatref.engine.plugins import Plugins, plugins
 from floatref.engine.road_distance import RoadDistance, correct_distance
 from floatref.engine.steps_back import leave_out_steps_back

@@ -90,8 +90,8 @@ class ForwardPass:
     ) -> LivePoints | None:
         """Return the points that the vehicle passed after ``begin_s`` and up to ``end_s``, if any.
 
-        The axis is ``offset_m`` ahead of the encoder. A stretch in which a channel has no sample
-        gives no points, and behind it the filters begin anew.
+        The axis is ``offset_m`` ahead of the encoder. Where a channel has no sample in the stretch,
+        nor in twice its length before, there are no points, and the filters begin anew.
         """
         signals = self._read(held, begin_s, end_s)
         if signals is None:

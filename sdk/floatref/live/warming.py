@@ -2,8 +2,8 @@
 
 The first window of a stream would otherwise load them while samples come: up to a hundred compiled
 functions, each of which holds the interpreter for milliseconds, or for a second where it has still
-to be compiled. The drive is made up: a body that bounces over a few waves, brakes to a standstill and
-goes on. What comes of it is thrown away, and so is a refusal of it.
+to be compiled. The drive is made up: a body that bounces over a few waves, brakes to a standstill
+and goes on. What comes of it is thrown away, and so is a refusal of it.
 """
 
 from collections.abc import Iterator

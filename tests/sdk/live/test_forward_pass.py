@@ -102,7 +102,8 @@ def test_behind_a_missing_channel_it_begins_anew(recording, name):
     np.testing.assert_array_equal(numbers[where], own_numbers)
     np.testing.assert_array_equal(elevation[where], own_elevation)
     np.testing.assert_array_equal(valid[where], own_valid)
-    gap_m = 20.0 * np.array(MISSING_S) + np.array([11.0, -11.0])
+    # The last sample is held for a second.
+    gap_m = 20.0 * np.array(MISSING_S) + np.array([25.0, -11.0])
     assert not ((numbers * INTERVAL_M > gap_m[0]) & (numbers * INTERVAL_M < gap_m[1])).any()
     # It runs in over a wavelength, and has the speed of the vehicle then.
     assert not valid[
