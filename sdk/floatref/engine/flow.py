@@ -12,8 +12,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref.engine.kept_blocks import KeptBlocks
 from floatref.errors import FloatrefError, InputError, StageError
+from floatref.intake.kept_blocks import KeptBlocks
 from floatref.stages.protocol import Direction, Stage
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Event, Header

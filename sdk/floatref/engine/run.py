@@ -17,7 +17,6 @@ from floatref.engine.axis_place import Place, first_point
 from floatref.engine.collecting import collect_profile
 from floatref.engine.fall_back import fill_gaps, gaps_of
 from floatref.engine.height_skew import Aligned, align_heights
-from floatref.engine.kept_blocks import KeptBlocks
 from floatref.engine.plugins import Plugins, plugins
 from floatref.engine.road_distance import RoadDistance, correct_distance
 from floatref.engine.steps_back import leave_out_steps_back
@@ -25,6 +24,7 @@ from floatref.engine.validity_and_sigma import Reach
 from floatref.engine.withdrawing import withdraw
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
+from floatref.intake.kept_blocks import KeptBlocks
 from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.measures.consistency import record_innovations

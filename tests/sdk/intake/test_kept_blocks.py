@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from floatref.engine import flow
 from floatref.engine.axis_place import Place
-from floatref.engine.kept_blocks import KeptBlocks
 from floatref.engine.run import run
+from floatref.intake.kept_blocks import KeptBlocks
 from floatref.stages.signals import ELEVATION
 from floatref.values.block import Block
 from floatref.values.channels import ChannelId
