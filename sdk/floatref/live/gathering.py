@@ -8,7 +8,7 @@ next tick. Nothing is decided between two ticks, so that no point comes later.
 
 from collections.abc import Mapping
 from math import ceil, floor
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 
@@ -126,7 +126,7 @@ class Gathering:
         return {name: room.empty() for name, room in self._rooms.items() if room.size}
 
 
-def _is_plain(values: Any) -> bool:
+def _is_plain(values: Any) -> TypeGuard[FloatArray]:
     """Return whether ``values`` can be copied without further questions."""
     return type(values) is np.ndarray and values.ndim == 1 and values.dtype is FLOAT
 
