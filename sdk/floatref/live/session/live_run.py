@@ -84,6 +84,7 @@ class LiveRun:
         for name, each in numbered.items():
             if each.missing:
                 text = describe_missing(name, each.missing, self._numbers)
+                self.watch.missed(name, each.missing)
                 self.watch.event(text)
                 yield answers.event(text)
         for pieces in fill(numbered, self._numbers.clocks):
@@ -118,6 +119,7 @@ class LiveRun:
         self._directory.finish([each for each in points if each.state is State.FINAL])
         self.complete = True
         yield from self._give(points)
+        self.watch.completed()
         yield self.completed()
 
     def completed(self) -> Answer:
@@ -148,6 +150,7 @@ class LiveRun:
         self._numbers = SampleNumbers(clocks, sent)
         self._distance = next((n for n in clocks if n.rpartition(".")[2] == DISTANCE), DISTANCE)
         self._odometer = Odometer(clocks.get(self._distance))
+        self.watch.declared(clocks)
 
     def _check_same(self, hello: Hello) -> None:
         assert self._directory is not None
@@ -175,6 +178,7 @@ class LiveRun:
         piece = samples.channels.get(self._distance)
         if piece is not None:
             self._odometer.add(piece, self._numbers.come[self._distance] - piece.values.size)
+        self.watch.read(samples.channels)
         self.watch.took(self._odometer.see(counts))
 
     def _save(self, points: list[LivePoints]) -> Iterator[Answer]:
