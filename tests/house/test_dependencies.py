@@ -16,6 +16,7 @@ ALLOWED = {
     # Names of types alone, for type checkers.
     "sdk/floatref/values": {"matplotlib", "pandas", "xarray"},
     "sdk/floatref/batch": {"dask", "distributed", "pyarrow"},
+    "sdk/floatref/live/session": {"pyarrow"},
     "sdk/floatref/files/gis": {"pyogrio", "shapely"},
     "adapters": {"numpy"},
     "adapters/floatref_adapters": {

@@ -16,16 +16,25 @@ from floatref.measures import (
     rolling_straightedge,
     valid_frames,
 )
-from floatref.measures.ride.rolling_straightedge import EIGHTH_INCH_M, TEN_FEET_M
+from floatref.measures.ride.deviation_areas import check_length, check_limit
+from floatref.measures.ride.rolling_straightedge import EIGHTH_INCH_M, LENGTH, TEN_FEET_M
 from floatref.values.profile import Profile, ProfileTrack
 
 
 @dataclass(frozen=True)
 class Straightedge:
-    """Length of a straightedge and the deviation that is allowed in its middle, in m."""
+    """Length of a straightedge and the deviation that is allowed in its middle, in m.
+
+    Raises InputError unless both are above zero.
+    """
 
     length_m: float = TEN_FEET_M
     tolerance_m: float = EIGHTH_INCH_M
+
+    def __post_init__(self) -> None:
+        """Refuse a setting before a long road is read."""
+        check_length(self.length_m, LENGTH)
+        check_limit(self.tolerance_m)
 
 
 def parse_wheels(text: str) -> tuple[float, ...]:
@@ -48,7 +57,17 @@ def straightedge_report(
 
     Raises InputError as the measures do, and for a profile on which neither has a place.
     """
-    tracks = [_describe_track(track, profile, edge, machine, rules) for track in profile.tracks]
+    # The profilograph needs the most memory, so the areas of the straightedge come after it.
+    traces = [_describe_trace(track, profile, machine, rules) for track in profile.tracks]
+    tracks = [
+        {
+            "name": track.name,
+            "valid_share": float(np.mean(track.valid)),
+            "straightedge": _describe_edge(track, profile, edge),
+            "profilograph": trace,
+        }
+        for track, trace in zip(profile.tracks, traces, strict=True)
+    ]
     settings = {
         "interval_m": profile.interval_m,
         "straightedge_m": tracks[0]["straightedge"]["length_m"],
@@ -59,14 +78,8 @@ def straightedge_report(
     return {"settings": settings, "tracks": tracks}
 
 
-def _describe_track(
-    track: ProfileTrack,
-    profile: Profile,
-    edge: Straightedge,
-    machine: Profilograph,
-    rules: TraceRules,
-) -> dict[str, Any]:
-    """Return what both machines measure on one wheel path."""
+def _describe_edge(track: ProfileTrack, profile: Profile, edge: Straightedge) -> dict[str, Any]:
+    """Return what the straightedge measures on one wheel path."""
     z, interval, start = track.elevation, profile.interval_m, profile.start_m
     with name_errors(f"track {track.name}"):
         result = asdict(
@@ -77,12 +90,7 @@ def _describe_track(
                 f"the straightedge of {result['length_m']:g} m has no place on the measured "
                 f"{(np.count_nonzero(np.isfinite(z)) - 1) * interval:g} m; give a longer profile"
             )
-        return {
-            "name": track.name,
-            "valid_share": float(np.mean(track.valid)),
-            "straightedge": result,
-            "profilograph": _describe_trace(track, profile, machine, rules),
-        }
+        return result
 
 
 def _describe_trace(
@@ -93,17 +101,20 @@ def _describe_trace(
     The index of the whole is that of the segments by their measured lengths.
     """
     z, interval, start = track.elevation, profile.interval_m, profile.start_m
-    trace = profilograph_trace(z, interval, machine)
-    sound = valid_frames(z, interval, machine, track.valid)
-    segments = profile_indices(trace, sound, interval, rules, start)
-    measured = [each for each in segments if each.measured_m > 0.0]
-    length = sum(each.measured_m for each in measured)
-    total = sum(each.profile_index_m_per_km * each.measured_m for each in measured)
-    known = np.isfinite(trace)
-    return {
-        "profile_index_m_per_km": total / length if length else float("nan"),
-        "measured_m": length,
-        "valid_share": float(np.mean(sound[known])) if known.any() else float("nan"),
-        "segments": [asdict(each) for each in segments],
-        "must_grind": [asdict(each) for each in must_grind(trace, sound, interval, rules, start)],
-    }
+    with name_errors(f"track {track.name}"):
+        trace = profilograph_trace(z, interval, machine)
+        sound = valid_frames(z, interval, machine, track.valid)
+        segments = profile_indices(trace, sound, interval, rules, start)
+        measured = [each for each in segments if each.measured_m > 0.0]
+        length = sum(each.measured_m for each in measured)
+        total = sum(each.profile_index_m_per_km * each.measured_m for each in measured)
+        known = np.isfinite(trace)
+        return {
+            "profile_index_m_per_km": total / length if length else float("nan"),
+            "measured_m": length,
+            "valid_share": float(np.mean(sound[known])) if known.any() else float("nan"),
+            "segments": [asdict(each) for each in segments],
+            "must_grind": [
+                asdict(each) for each in must_grind(trace, sound, interval, rules, start)
+            ],
+        }

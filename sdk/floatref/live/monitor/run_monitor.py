@@ -69,6 +69,7 @@ class RunMonitor(Watch):
         self._interval_m = 0.0
         self._events: deque[Event] = deque(maxlen=EVENTS)
         self._counted = 0
+        self._waits_since_s: float | None = None
 
     @_harmless
     def recall(self, profile: Profile) -> None:
@@ -117,6 +118,11 @@ class RunMonitor(Watch):
         self._distance_m, self._speed_mps = at_m, taken.speed_mps
 
     @_harmless
+    def waited(self, begins: bool) -> None:
+        """See that no message is read: channels are not silent meanwhile."""
+        self._waits_since_s = self._clock() if begins else None
+
+    @_harmless
     def gave(self, points: LivePoints) -> None:
         """Take points and their events."""
         for text in points.events:
@@ -148,13 +154,15 @@ class RunMonitor(Watch):
 
     def _shown(self, now_s: float) -> Shown:
         """Return all but the section that grows."""
-        sensors = self._states(now_s)
+        waits_s = None if self._waits_since_s is None else now_s - self._waits_since_s
+        sensors = self._states(now_s - (waits_s or 0.0))
         return Shown(
             name=self._name,
             status=self._status,
             reason=self._reason,
             pipeline="" if self._stream is None else self._stream.pipelines[0],
             for_s=now_s - self._begun_s,
+            calculates_s=waits_s,
             distance_m=self._distance_m,
             speed_mps=self._known_speed(sensors),
             final_m=self._final_m,

@@ -63,6 +63,8 @@ class Shown:
         reason: why the connection has ended; empty while it lasts.
         pipeline: what makes the final points; empty before the first hello.
         for_s: time in s since the command was started.
+        calculates_s: time in s for which points have been calculated while no message is read; None
+            while messages are read.
         distance_m, speed_mps: of the vehicle; None while they are not known.
         final_m: place of the last final point in m; None before the first.
         to_final: when the next one comes; None before the first distance.
@@ -78,6 +80,7 @@ class Shown:
     reason: str
     pipeline: str
     for_s: float
+    calculates_s: float | None
     distance_m: float | None
     speed_mps: float | None
     final_m: float | None

@@ -11,6 +11,8 @@ from floatref.live.monitor.shown_state import Shown, Status
 
 FINAL, PROVISIONAL = 8, 3
 """Finished sections that are shown."""
+BUSY_S = 1.0
+"""Time in s after which a calculation is shown."""
 UNKNOWN = "–"
 HEALTH = {Health.OK: "green", Health.WAITING: "dim", Health.SILENT: "bold yellow"}
 STATUS = {Status.RUNNING: "bold green", Status.COMPLETE: "bold"}
@@ -67,13 +69,18 @@ def _head(shown: Shown) -> Text:
 
 
 def _describe_status(shown: Shown) -> str:
-    return _on_one_line(f"{shown.status}: {shown.reason}" if shown.reason else str(shown.status))
+    reason = f": {shown.reason}" if shown.reason else ""
+    seconds = shown.calculates_s
+    busy = "" if seconds is None or seconds < BUSY_S else f", calculates for {seconds:.0f} s"
+    return _on_one_line(f"{shown.status}{reason}{busy}")
 
 
 def _describe_next(shown: Shown) -> str:
     to = shown.to_final
     if to is None:
         return UNKNOWN
+    if to.travel_m == 0.0:
+        return "is due, and is calculated"
     then_s, standing_s = to.latency.then_s, to.latency.standing_s
     return f"in {to.travel_m:.0f} m and {then_s:g} s; at a standstill after {standing_s:g} s"
 

@@ -6,11 +6,12 @@ from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
+from floatref.files.profile_directory import read_profile
 from floatref.live.points import LivePoints, State
 from floatref.live.session import answers
 from floatref.live.session.answers import Answer
 from floatref.live.session.messages import Hello, Piece, Samples, read_hello
-from floatref.live.session.run_directory import RunDirectory, is_complete, points_of_complete
+from floatref.live.session.run_directory import RunDirectory, cut_tracks, is_complete, parts
 from floatref.live.session.sample_numbers import SampleNumbers, describe_missing, fill
 from floatref.live.session.watch import Odometer, Watch
 from floatref.live.stream import LiveStream, start_stream
@@ -18,8 +19,6 @@ from floatref.stages.signals import DISTANCE
 
 SAVE_S = 10.0
 """Time in s after which the samples that have come are saved, though no point is final."""
-AT_ONCE = 20_000
-"""Points that are read again from the disk at once."""
 
 
 class LiveRun:
@@ -120,11 +119,17 @@ class LiveRun:
         self.complete = True
         yield from self._give(points)
         self.watch.completed()
-        yield self.completed()
+        yield from self.completed()
 
-    def completed(self) -> Answer:
-        """Return the answer that the profile is complete."""
-        return answers.finished(self._path, *points_of_complete(self._path))
+    def completed(self, points_from: int | None = None) -> Iterator[Answer]:
+        """Yield the points from a number on, if there is one, and that the profile is complete."""
+        profile = read_profile(self._path)
+        count, begin = profile.tracks[0].elevation.size, round(profile.start_m / profile.interval_m)
+        for low, high in parts(points_from, begin, begin + count):
+            tracks = cut_tracks(profile, low - begin, high - begin)
+            made = profile.interval_m, tracks, State.FINAL, profile.pipeline
+            yield from answers.of_points(LivePoints(low, *made))
+        yield answers.finished(self._path, count, profile.interval_m)
 
     def close(self) -> None:
         """End the thread of the stream; what is not saved is lost."""
@@ -185,7 +190,9 @@ class LiveRun:
         """Save the stream behind ``points`` and all that are ready, then give these out."""
         assert self._stream is not None
         assert self._directory is not None
+        self.watch.waited(True)
         points = [*points, *self._stream.ready(wait=True)]
+        self.watch.waited(False)
         final = [each for each in points if each.state is State.FINAL]
         self._directory.store(final, self._stream, self._numbers.next)
         self._saved_at, self._unsaved = self._clock(), False
@@ -206,7 +213,7 @@ class LiveRun:
         profile = self._directory.profile
         if profile.first is None or profile.end is None:
             return
-        for low in range(max(first, profile.first), profile.end, AT_ONCE):
-            tracks = profile.read(low, min(low + AT_ONCE, profile.end))
+        for low, high in parts(first, profile.first, profile.end):
+            tracks = profile.read(low, high)
             points = LivePoints(low, profile.interval_m, tuple(tracks), State.FINAL)
             yield from answers.of_points(points)

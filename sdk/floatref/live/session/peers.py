@@ -52,7 +52,7 @@ def followed(path: Path) -> Iterator[Peer]:
     """Yield what writes the file ``path``; answers go to standard output."""
     with open_bytes(path) as stream:
         # A raw stream of our own is what `BufferedReader` documents to take.
-        growing: Any = BufferedReader(GrowingFile(path, stream))  # type: ignore[type-var]
+        growing: Any = BufferedReader(GrowingFile(path, stream))
         yield Peer(growing, write_to_output, str(path), from_start=True)
 
 

@@ -13,7 +13,7 @@ written beyond is not part of the run, and the points in it are those of the sav
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,7 @@ from floatref.errors import InputError
 from floatref.files.atomic import check_target, replace_directory, replace_file
 from floatref.files.document import plain, read_document, write_document
 from floatref.files.growing_profile import GrowingProfile, append_durably
-from floatref.files.profile_directory import DOCUMENT, read_profile
+from floatref.files.profile_directory import DOCUMENT
 from floatref.files.sources import open_bytes
 from floatref.live.points import (
     LONGEST_GAP_M,
@@ -32,9 +32,12 @@ from floatref.live.points import (
     record_of_window,
 )
 from floatref.live.stream import LiveStream, resume_stream
+from floatref.values.profile import Profile, ProfileTrack
 
 STATE, WINDOWS = "live.json", "windows.jsonl"
 FORMAT = "floatref-live-run/1"
+AT_ONCE = 20_000
+"""Points that are read again from the disk at once."""
 INLINE_BYTES = 2 << 20
 """Longest record of all windows in bytes that `profile.json` holds; a document has its limit."""
 
@@ -200,10 +203,28 @@ def _remove_state(path: Path, with_windows: bool) -> None:
         stream.unlink(missing_ok=True)
 
 
-def points_of_complete(path: Path) -> tuple[int, float]:
-    """Return the number of points of the complete profile at ``path``, and their interval in m."""
-    profile = read_profile(path)
-    return profile.tracks[0].elevation.size, profile.interval_m
+def parts(first: int | None, begin: int, end: int) -> Iterator[tuple[int, int]]:
+    """Yield the ends of short parts of the points from ``first`` on; nothing for None.
+
+    There are points from ``begin`` to before ``end``.
+    """
+    if first is not None:
+        for low in range(max(first, begin), end, AT_ONCE):
+            yield low, min(low + AT_ONCE, end)
+
+
+def cut_tracks(profile: Profile, low: int, high: int) -> tuple[ProfileTrack, ...]:
+    """Return points ``low`` to ``high`` - 1 of every wheel path of ``profile``."""
+    cut = slice(low, high)
+    return tuple(
+        ProfileTrack.of(
+            track.name,
+            track.elevation[cut],
+            track.valid[cut],
+            None if track.sigma is None else track.sigma[cut],
+        )
+        for track in profile.tracks
+    )
 
 
 def _stream_name(number: int | str) -> str:

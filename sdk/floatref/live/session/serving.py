@@ -142,7 +142,7 @@ class Serving:
         if asked and not hmac.compare_digest(given, asked):
             raise NotLetIn(f"{where}: token is not that of this server; send the one of its file")
         if self._run.complete:
-            self._answer([self._run.completed()])
+            self._answer(self._run.completed(hello.points_from))
             return True
         with name_errors(where):
             self._answer(self._run.greet(hello, self._peer.from_start))

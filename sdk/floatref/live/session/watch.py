@@ -52,6 +52,12 @@ class Watch:
     def took(self, taken: Taken) -> None:
         """See what a message of samples has brought."""
 
+    def waited(self, begins: bool) -> None:
+        """See that the run waits for its points to be calculated, or that it goes on.
+
+        No message is read meanwhile.
+        """
+
     def gave(self, points: LivePoints) -> None:
         """See ``points``, provisional or final, with their events; final ones are stored."""
 

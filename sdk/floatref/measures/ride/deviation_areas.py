@@ -59,8 +59,7 @@ class Deviation:
 
         Raises InputError for a limit that is not above zero.
         """
-        if not limit_m > 0:
-            raise InputError(f"a deviation of {limit_m} m is no limit; it must be above zero")
+        check_limit(limit_m)
         found = [
             self._describe(kind, area)
             for kind, sign in SIGNS
@@ -113,9 +112,20 @@ def half_count(length_m: float, interval_m: float, name: str) -> int:
     Ties go to even. Raises InputError, with ``name``, for a length that is not finite and above
     zero.
     """
+    check_length(length_m, name)
+    return max(round(length_m / 2.0 / interval_m), 1)
+
+
+def check_limit(limit_m: float) -> None:
+    """Raise InputError unless the deviation ``limit_m`` in m is above zero."""
+    if not limit_m > 0:
+        raise InputError(f"a deviation of {limit_m} m is no limit; it must be above zero")
+
+
+def check_length(length_m: float, name: str) -> None:
+    """Raise InputError, with ``name``, unless ``length_m`` is finite and above zero."""
     if not (np.isfinite(length_m) and length_m > 0):
         raise InputError(f"{name} is {length_m} m; it must be above zero")
-    return max(round(length_m / 2.0 / interval_m), 1)
 
 
 def bridged_stretch(elevation: FloatArray, interval_m: float) -> tuple[slice, FloatArray]:

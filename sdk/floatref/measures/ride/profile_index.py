@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.measures.ride.bump_template import heights_above_base
 from floatref.measures.roughness.areas import list_areas, share
 from floatref.measures.roughness.roughness_index import M_PER_KM, segment_edges
 from floatref.measures.roughness.roughness_profile import TENTH_OF_A_MILE_M
@@ -198,13 +199,7 @@ def _grind_heights(trace: FloatArray, span: int, limit: float) -> FloatArray:
     # No base is lower than the higher of the lowest values on both sides.
     possible = np.isfinite(trace) & (known - limit > np.maximum(ahead, behind))
     heights = np.zeros(trace.size)
-    for k in np.flatnonzero(possible).tolist():
-        left = np.minimum.accumulate(known[max(k - span, 0) : k + 1][::-1])
-        right = np.minimum.accumulate(known[k : k + span + 1])
-        left = np.pad(left, (0, span + 1 - left.size), mode="edge")
-        right = np.pad(right, (0, span + 1 - right.size), mode="edge")
-        height = float(known[k] - np.maximum(left, right[::-1]).min())
-        heights[k] = height if height > limit else 0.0
+    heights_above_base(known, np.flatnonzero(possible), limit, np.empty(span + 1), heights)
     return heights
 
 

@@ -20,7 +20,7 @@ from floatref import read_profile
 from floatref.live.as_live import run_as_live
 
 pytestmark = pytest.mark.posix
-LEGS = [(20.0, 320.0)]
+LEGS = [(20.0, 240.0)]
 PIPELINE = "temporal-basic"
 LIVE = [sys.executable, "-m", "floatref", "live", "-o"]
 WAIT_S = 300.0

@@ -126,7 +126,7 @@ def test_samples_that_never_came_are_missing(made, live, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_complete_run_answers_that_it_is(made, live, tmp_path):
+def test_a_complete_run_answers_that_it_is(made, live, same, tmp_path):
     recording, expected = made("one clock")
     messages = live.messages_of(recording, step_s=50.0)
     live.serve(tmp_path / "run", messages)
@@ -134,6 +134,9 @@ def test_a_complete_run_answers_that_it_is(made, live, tmp_path):
     assert error is None
     assert [each["kind"] for each in again] == ["finished"]
     assert again[0]["points"] == expected["left"].elevation.size
+    hello = {**messages[0], "points_from": -5}
+    again, _ = live.serve(tmp_path / "run", [hello], resume=True)
+    same(live.profile_of(again), expected)
 
 
 @pytest.mark.slow

@@ -37,8 +37,9 @@
     at("distance").textContent = show(state.distance_m, 1);
     at("final").textContent = show(state.final_m, 1);
     const to = state.to_final;
-    at("next").textContent = to === null ? UNKNOWN : show(to.travel_m) + " m";
-    at("then").textContent = to === null ? "" : ", or " + to.latency.standing_s + " s at a standstill";
+    const due = to !== null && to.travel_m === 0;
+    at("next").textContent = to === null ? UNKNOWN : due ? "due" : show(to.travel_m) + " m";
+    at("then").textContent = to === null || due ? "" : ", or " + to.latency.standing_s + " s at a standstill";
     for (const name of ["dropped", "late"]) {
       at(name).textContent = state[name];
       at(name).className = state[name] > 0 ? "some" : "";
@@ -89,7 +90,10 @@
     document.title = state.name + " – floatref live";
     at("name").textContent = state.name;
     const status = at("status");
-    const text = [state.status + (state.reason ? ": " + state.reason : ""), state.pipeline].filter(Boolean);
+    const text = [
+      state.status + (state.reason ? ": " + state.reason : ""), state.pipeline,
+      state.calculates_s > 1 ? "calculates for " + show(state.calculates_s) + " s" : "",
+    ].filter(Boolean);
     // An unchanged line is not read aloud again.
     if (status.textContent !== text.join(", ")) status.textContent = text.join(", ");
     status.className = state.status;
