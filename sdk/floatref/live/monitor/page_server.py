@@ -29,6 +29,8 @@ TIMEOUT_S = 5.0
 """Time in s that a browser has to send its request and to take the answer."""
 OLDEST_S = 0.4
 """Age in s up to which a state is sent again, so that many pages cost no more than one."""
+POLL_S = 0.1
+"""Time in s between two looks for the end."""
 LOOKED_S, PARTING_S = 3.0, 3.0
 """If a page has asked within the first time, in s, the end waits up to the second until it has the
 last state."""
@@ -174,7 +176,7 @@ def page_server(shown: Callable[[], Shown], port: int) -> Iterator[str]:
         raise InputError(
             f"--web {port}: {HERE}:{port} cannot be listened at ({reason}); choose another port"
         ) from error
-    thread = Thread(target=server.serve_forever, name="floatref-web", daemon=True)
+    thread = Thread(target=server.serve_forever, args=(POLL_S,), name="floatref-web", daemon=True)
     thread.start()
     try:
         yield f"http://{HERE}:{server.server_address[1]}/"

@@ -143,6 +143,7 @@ class RunMonitor(Watch):
     @_harmless
     def ended(self, text: str) -> None:
         """Take why the connection has ended."""
+        self._waits_since_s = None
         if self._status is not Status.COMPLETE:
             self._status, self._reason = Status.INTERRUPTED, text[:LONGEST_TEXT]
 

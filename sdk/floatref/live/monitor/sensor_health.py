@@ -101,9 +101,11 @@ class SensorHealth:
             return
         lasts_s = self._duration_s(piece)
         known = np.flatnonzero(~np.isnan(piece.values))
-        kept = math.exp(-lasts_s / RECENT_S)
-        self._recent = kept * self._recent + count
-        self._recent_missing = kept * self._recent_missing + count - known.size
+        weights = np.exp(np.arange(1 - count, 1) * (lasts_s / count / RECENT_S))
+        kept, all_of_it = math.exp(-lasts_s / RECENT_S), float(weights.sum())
+        self._recent = kept * self._recent + all_of_it
+        missing = all_of_it - float(weights[known].sum()) if known.size < count else 0.0
+        self._recent_missing = kept * self._recent_missing + missing
         self._samples += count
         self._missing += count - known.size
         self._came_s = now_s

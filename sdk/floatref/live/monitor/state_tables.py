@@ -86,11 +86,11 @@ def _describe_next(shown: Shown) -> str:
 
 
 def _sensors(shown: Shown) -> Table:
-    table = _table(["channel", "state"], ["samples", "missing", "dropped", "late", "last, s"])
+    table = _table(["channel", "state"], ["samples", "missing", "dropped", "late"])
     for each in shown.sensors:
         state = Text(_describe_health(each), style=HEALTH.get(each.health, "bold red"))
         counts = (each.samples, each.missing, each.dropped, each.late)
-        table.add_row(Text(each.name), state, *map(str, counts), _number(each.silent_s, 1))
+        table.add_row(Text(each.name), state, *map(str, counts))
     return table
 
 
@@ -99,6 +99,8 @@ def _describe_health(sensor: SensorState) -> str:
         return f"{100.0 * sensor.missing_share:.0f} % missing"
     if sensor.health is Health.STUCK:
         return f"stuck for {sensor.unchanged_s:.0f} s"
+    if sensor.health is Health.SILENT:
+        return f"silent for {sensor.silent_s:.0f} s"
     return str(sensor.health)
 
 

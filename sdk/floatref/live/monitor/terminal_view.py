@@ -12,8 +12,8 @@ from rich.live import Live
 from floatref.live.monitor.shown_state import Shown
 from floatref.live.monitor.state_tables import plain_line, render
 
-PER_S = 2.0
-"""Drawings in a second."""
+DRAWS_S = 0.5
+"""Time in s between two drawings."""
 LINE_S = 10.0
 """Time in s between two plain lines."""
 ENDING_S = 2.0
@@ -25,17 +25,30 @@ def terminal_view(shown: Callable[[], Shown], stream: TextIO) -> Iterator[None]:
     """Show on ``stream`` what ``shown`` returns, until the end of the statement.
 
     The last state is left there. Without a terminal it is one plain line every `LINE_S`. A thread
-    draws, and a stream that takes no output stops that thread alone.
+    of its own writes, so that a stream that takes no output stops that thread alone.
     """
     console = Console(file=stream, emoji=False, highlight=False)
-    view = _drawn(shown, console) if console.is_terminal else _lines(shown, stream)
-    with view:
+    end = Signal()
+
+    def write() -> None:
+        # Whoever reads may have gone; the run goes on.
+        with suppress(OSError, ValueError):
+            if console.is_terminal:
+                _draw(shown, console, end)
+            else:
+                _write_lines(shown, stream, end)
+
+    thread = Thread(target=write, name="floatref-display", daemon=True)
+    thread.start()
+    try:
         yield
+    finally:
+        end.set()
+        thread.join(ENDING_S)
 
 
-@contextmanager
-def _drawn(shown: Callable[[], Shown], console: Console) -> Iterator[None]:
-    """Draw tables; standard output has the answers, so it is not redirected."""
+def _draw(shown: Callable[[], Shown], console: Console, end: Signal) -> None:
+    """Draw tables until the ``end``; standard output has the answers, so it is not redirected."""
 
     def draw() -> RenderableType:
         return render(shown())
@@ -43,43 +56,16 @@ def _drawn(shown: Callable[[], Shown], console: Console) -> Iterator[None]:
     live = Live(
         console=console,
         get_renderable=draw,
-        refresh_per_second=PER_S,
+        auto_refresh=False,
         redirect_stdout=False,
         vertical_overflow="crop",
     )
-    live.start()
-    try:
-        yield
-    finally:
-        _end(live.stop)
+    with live:
+        while not end.wait(DRAWS_S):
+            live.refresh()
 
 
-@contextmanager
-def _lines(shown: Callable[[], Shown], stream: TextIO) -> Iterator[None]:
-    end = Signal()
-
-    def write() -> None:
-        # Whoever reads the lines may have gone; the run goes on.
-        with suppress(OSError, ValueError):
-            while not end.wait(LINE_S):
-                print(plain_line(shown()), file=stream, flush=True)
-            print(plain_line(shown()), file=stream, flush=True)
-
-    thread = Thread(target=write, name="floatref-display", daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        _end(lambda: (end.set(), thread.join()))
-
-
-def _end(stop: Callable[[], object]) -> None:
-    """Call ``stop``, and wait no longer than `ENDING_S`."""
-
-    def call() -> None:
-        with suppress(OSError, ValueError):
-            stop()
-
-    thread = Thread(target=call, name="floatref-display-end", daemon=True)
-    thread.start()
-    thread.join(ENDING_S)
+def _write_lines(shown: Callable[[], Shown], stream: TextIO, end: Signal) -> None:
+    while not end.wait(LINE_S):
+        print(plain_line(shown()), file=stream, flush=True)
+    print(plain_line(shown()), file=stream, flush=True)

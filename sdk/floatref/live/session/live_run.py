@@ -114,11 +114,12 @@ class LiveRun:
         """
         assert self._stream is not None
         assert self._directory is not None
+        self.watch.waited(True)
         points = self._stream.finish()
+        self.watch.waited(False)
         self._directory.finish([each for each in points if each.state is State.FINAL])
         self.complete = True
         yield from self._give(points)
-        self.watch.completed()
         yield from self.completed()
 
     def completed(self, points_from: int | None = None) -> Iterator[Answer]:
@@ -129,6 +130,7 @@ class LiveRun:
             tracks = cut_tracks(profile, low - begin, high - begin)
             made = profile.interval_m, tracks, State.FINAL, profile.pipeline
             yield from answers.of_points(LivePoints(low, *made))
+        self.watch.completed()
         yield answers.finished(self._path, count, profile.interval_m)
 
     def close(self) -> None:

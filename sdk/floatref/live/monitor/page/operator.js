@@ -23,6 +23,7 @@
   function describeHealth(sensor) {
     if (sensor.health === "missing") return Math.round(100 * sensor.missing_share) + " % missing";
     if (sensor.health === "stuck") return "stuck for " + Math.round(sensor.unchanged_s) + " s";
+    if (sensor.health === "silent") return "silent for " + show(sensor.silent_s) + " s";
     return sensor.health;
   }
 
