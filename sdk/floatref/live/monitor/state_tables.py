@@ -16,6 +16,8 @@ BUSY_S = 1.0
 UNKNOWN = "–"
 HEALTH = {Health.OK: "green", Health.WAITING: "dim", Health.SILENT: "bold yellow"}
 STATUS = {Status.RUNNING: "bold green", Status.COMPLETE: "bold"}
+MANY = 10_000_000
+"""A count from which on millions are shown."""
 TO_KMH = 3.6
 
 
@@ -90,7 +92,7 @@ def _sensors(shown: Shown) -> Table:
     for each in shown.sensors:
         state = Text(_describe_health(each), style=HEALTH.get(each.health, "bold red"))
         counts = (each.samples, each.missing, each.dropped, each.late)
-        table.add_row(Text(each.name), state, *map(str, counts))
+        table.add_row(Text(each.name), state, *map(_count, counts))
     return table
 
 
@@ -107,8 +109,8 @@ def _describe_health(sensor: SensorState) -> str:
 def _sections(shown: Shown) -> Table:
     chosen = _chosen(shown)
     names = [track.name for track in chosen[-1].tracks] if chosen else []
-    heads = [f"{name}: IRI ± 1-σ in m/km, valid" for name in names]
-    table = _table(["from, m", "points"], heads)
+    heads = [f"{name}: m/km ± 1-σ, valid" for name in names]
+    table = _table(["IRI from, m", "points"], heads)
     for each in reversed(chosen):
         style = "" if each.is_final and not each.is_running else "italic cyan"
         cells = map(_describe_iri, each.tracks)
@@ -126,7 +128,7 @@ def _chosen(shown: Shown) -> list[Section]:
 
 def _describe_state(section: Section) -> str:
     state = "final" if section.is_final else "provisional"
-    return f"{state}, first {section.length_m:.0f} m" if section.is_running else state
+    return f"{state}, {section.length_m:.0f} m" if section.is_running else state
 
 
 def _describe_iri(track: TrackFigures) -> str:
@@ -152,6 +154,10 @@ def _table(texts: list[str], numbers: list[str]) -> Table:
 
 def _number(value: float | None, digits: int) -> str:
     return UNKNOWN if value is None or value != value else f"{value:.{digits}f}"
+
+
+def _count(value: int) -> str:
+    return str(value) if value < MANY else f"{value / 1e6:.0f} M"
 
 
 def _kmh(shown: Shown) -> str:

@@ -11,7 +11,7 @@ from floatref.values.profile import Profile, ProfileTrack
 
 
 def make_profile(seed, length_m=1200.0, interval_m=0.1, names=("left",), first=0, sigma=True):
-    """Return a profile with stretches that are not valid, whose first point has number ``first``."""
+    """Return a profile with stretches that are not valid, from point ``first`` on."""
     rng = np.random.default_rng(seed)
     count = round(length_m / interval_m)
     tracks = []

@@ -1,4 +1,4 @@
-"""The page is for browsers on this machine: one address, GET alone, and a policy without network."""
+"""The page is for browsers on this machine: one address, GET alone, no network."""
 
 import base64
 import hashlib

@@ -68,7 +68,7 @@
     }
     at("sections").replaceChildren(...all.reverse().map((each) => {
       const kind = each.is_final ? "final" : "provisional";
-      const text = each.is_running ? kind + ", first " + show(each.length_m) + " m" : kind;
+      const text = each.is_running ? kind + ", " + show(each.length_m) + " m" : kind;
       const figures = each.tracks.map((track) => cell(describeIri(track), "number"));
       const changes = each.is_final && !each.is_running ? "final" : "provisional";
       return row([cell(show(each.start_m, 1), "number"), cell(text), ...figures], changes);
