@@ -21,6 +21,8 @@ from terminal import browser_page, command_line, picture
 
 from floatref.live.monitor.page_server import page_server
 from floatref.live.monitor.run_monitor import RunMonitor
+from floatref.live.monitor.sensor_health import Health
+from floatref.live.monitor.shown_state import Shown
 from floatref.live.monitor.state_tables import render
 from floatref.live.session.live_run import LiveRun
 from floatref.live.session.serving import Peer, Serving
@@ -74,14 +76,21 @@ def send(stream: int, sent: list[dict[str, Any]], pause_s: float) -> None:
         time.sleep(pause_s)
 
 
-def take(monitor: RunMonitor) -> None:
-    """Take the pictures of what is shown now."""
+def is_telling(shown: Shown) -> bool:
+    """Return whether there is much to see: final sections, and a sensor that is stuck."""
+    finals = [section for section in shown.sections if section.is_final]
+    stuck = [each for each in shown.sensors if each.health is Health.STUCK]
+    return bool(finals and stuck and shown.to_final and shown.to_final.travel_m)
+
+
+def take(shown: Shown) -> None:
+    """Take the pictures of a state."""
     console = Console(record=True, file=StringIO(), width=COLUMNS, force_terminal=True)
-    console.print(render(monitor.shown()))
+    console.print(render(shown))
     form = "<pre>{code}</pre>"
     html = command_line(COMMAND) + console.export_html(inline_styles=True, code_format=form)
     picture(html, COLUMNS, IMAGES / "live-terminal.png")
-    with page_server(monitor.shown, 0) as address:
+    with page_server(lambda: shown, 0) as address:
         for name, width in WIDTHS.items():
             with browser_page(width) as opened:
                 page = opened("")
@@ -100,8 +109,9 @@ def main() -> None:
         while not any(section.is_final for section in monitor.shown().sections):
             time.sleep(0.5)
         Thread(target=send, args=(writing, sent[-ENDS:], STEP_S), daemon=True).start()
-        time.sleep(0.4 * ENDS * STEP_S)
-        take(monitor)
+        while not is_telling(shown := monitor.shown()):
+            time.sleep(0.1)
+        take(shown)
 
 
 if __name__ == "__main__":

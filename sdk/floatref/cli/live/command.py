@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from floatref.cli.batch.interruption import interruptible
-from floatref.cli.live.views import make_monitor, open_views
+from floatref.cli.live.live_views import make_monitor, open_views
 from floatref.cli.number_option import number_option
 from floatref.errors import InputError, TargetExists
 from floatref.live.session.connections import is_loopback, read_token, serve_connections

@@ -39,7 +39,7 @@ def _harmless(
     """Return ``call`` under the lock; what fails in a display is shown, and never ends a run."""
 
     @wraps(call)
-    def safe(monitor: "RunMonitor", *args: P.args, **kwargs: P.kwargs) -> None:
+    def safe(monitor: "RunMonitor", /, *args: P.args, **kwargs: P.kwargs) -> None:
         with monitor._lock:
             try:
                 call(monitor, *args, **kwargs)

@@ -105,6 +105,10 @@ class Sections:
             self.origin = points.first
         if self.end is None:
             self._first = self.end = points.first
+            before = int((points.first - self.origin) * points.interval_m / SECTION_M) - 1
+            self._number = max(self._number, before)
+            while self._edge(self._number + 1) <= points.first:
+                self._number += 1
         skipped = max(self.end - points.first, 0)
         if skipped < len(points):
             self._bridge(points, points.first + skipped)

@@ -133,9 +133,9 @@ def _describe_state(section: Section) -> str:
 
 def _describe_iri(track: TrackFigures) -> str:
     sigma = track.sigma_m_per_km
-    spread = f" ± {sigma:.2f}" if sigma == sigma else ""
+    spread = f" ± {sigma:.3f}" if sigma == sigma else ""
     share = f"{int(100.0 * track.counted_share)} %"
-    return f"{_number(track.iri_m_per_km, 2)}{spread}, {share}"
+    return f"{_number(track.iri_m_per_km, 3)}{spread}, {share}"
 
 
 def _describe_event(text: str, at_m: float | None) -> str:

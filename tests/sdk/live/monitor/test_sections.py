@@ -142,6 +142,21 @@ def test_provisional_sections_follow_the_final_ones_and_never_lie_on_them(made):
     assert np.abs(numbers - np.rint(numbers)).max() < 1e-3
 
 
+@pytest.mark.parametrize("first", [0, 30, 643, 644, 645, 10_000])
+def test_points_that_begin_behind_the_origin_have_the_sections_of_the_run(made, first):
+    profile = made.profile(3, 600.0, 0.25, first=first)
+    sections = Sections(False)
+    sections.realign(0)
+    for points in made.points(profile, 3):
+        sections.add(points)
+    found = [*sections.finished, sections.running()]
+    starts = [s.start_m for s in found]
+    edges = [0.25 * round(k * SECTION_M / 0.25) for k in range(40)]
+    begun = max(e for e in edges if e <= first * 0.25)
+    assert starts == [e for e in edges if begun <= e < first * 0.25 + 599.5]
+    assert all(0.0 < s.tracks[0].counted_share <= 1.0 for s in found[1:-1])
+
+
 def test_points_too_far_apart_for_the_car_have_no_section():
     track = ProfileTrack.of("left", np.zeros(5000))
     sections = Sections(True)

@@ -77,7 +77,7 @@ def test_80_columns_hold_every_value():
         "87 % missing",
         "silent for 3 s",
         "right.vertical_specific_force",
-        "1.23 ± 0.06, 98 %",
+        "1.234 ± 0.057, 98 %",
         "provisional, 161 m",
         "at 12 m: channel left.height: 120 samples were not sent",
     ):
@@ -127,7 +127,7 @@ def test_the_plain_line_names_what_is_wrong():
     assert "\n" not in line
     for part in (
         "run running, calculates for 7 s, 72.0 km/h",
-        "IRI left 1.23 ± 0.06, 98 % m/km",
+        "IRI left 1.234 ± 0.057, 98 % m/km",
         "right.vertical_specific_force stuck for 12 s",
         "the display has failed: KeyError",
     ):

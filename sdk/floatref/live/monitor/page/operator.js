@@ -13,6 +13,14 @@
     return made;
   }
 
+  // A long name may go on in the next line, after a point or an underscore.
+  function nameCell(name) {
+    const made = document.createElement("th");
+    made.scope = "row";
+    made.append(...name.split(/(?<=[._])/).flatMap((part) => [part, document.createElement("wbr")]));
+    return made;
+  }
+
   function row(cells, kind = "") {
     const made = document.createElement("tr");
     made.className = kind;
@@ -28,8 +36,8 @@
   }
 
   function describeIri(track) {
-    const spread = track.sigma_m_per_km === null ? "" : " ± " + show(track.sigma_m_per_km, 2);
-    return show(track.iri_m_per_km, 2) + spread + ", " + Math.floor(100 * track.counted_share) + " %";
+    const spread = track.sigma_m_per_km === null ? "" : " ± " + show(track.sigma_m_per_km, 3);
+    return show(track.iri_m_per_km, 3) + spread + ", " + Math.floor(100 * track.counted_share) + " %";
   }
 
   function showFigures(state) {
@@ -49,7 +57,7 @@
 
   function showSensors(state) {
     at("sensors").replaceChildren(...state.sensors.map((each) => row([
-      cell(each.name), cell(describeHealth(each), each.health), cell(show(each.silent_s, 1), "number"),
+      nameCell(each.name), cell(describeHealth(each), each.health), cell(show(each.silent_s, 1), "number"),
       ...["samples", "missing", "dropped", "late"].map((name) => cell(each[name], "number")),
     ])));
   }
