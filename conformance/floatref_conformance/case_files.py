@@ -8,6 +8,7 @@ from reprlib import repr as shortened
 from typing import Any
 
 from floatref.errors import InputError
+from floatref.files import read_bytes
 from floatref_conformance.checks.case import Case
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.editions import EDITION, EDITIONS
@@ -54,17 +55,16 @@ def document(
     }
 
 
-def read_case(path: Path, edition: str | None = None) -> KeptCase:
+def read_case(path: Path, edition: str | None = None, links: bool = True) -> KeptCase:
     """Return the case in file ``path``; InputError, naming the file, if it holds no case.
 
-    A case of an edition that is not ``edition``, or without it not one of ours, is `refused`.
+    Without ``links`` a symbolic link is refused. A case of an edition that is not ``edition``, or
+    without it not one of ours, is `refused`.
     """
     try:
-        if path.stat().st_size > LARGEST_BYTES:
-            raise InputError(f"{path}: larger than any case; name a case file")
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}; name a case file") from error
+        found = json.loads(read_bytes(path, LARGEST_BYTES, "case", links).decode("utf-8"))
+    except InputError as error:
+        raise InputError(f"{error}; name a case file") from error
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: not JSON ({error}); name a case file") from error
     try:
@@ -76,9 +76,13 @@ def read_case(path: Path, edition: str | None = None) -> KeptCase:
 def read_cases(folder: Path, edition: str = EDITION) -> tuple[KeptCase, ...]:
     """Return the cases stored in report directory ``folder``, by name; empty without cases.
 
-    Those of an edition other than ``edition`` are `refused`.
+    Those of an edition other than ``edition`` are `refused`. InputError for a symbolic link: a
+    device can have put it there.
     """
-    return tuple(read_case(path, edition) for path in sorted((folder / FOLDER).glob("*.json")))
+    cases = folder / FOLDER
+    if cases.is_symlink():
+        raise InputError(f"{cases}: is a link; take it out, or name another folder of reports")
+    return tuple(read_case(path, edition, links=False) for path in sorted(cases.glob("*.json")))
 
 
 def _parse_case(name: str, found: object, wanted: str | None) -> KeptCase:

@@ -7,6 +7,7 @@ from floatref.errors import FloatrefError, InputError
 from floatref.values.display.similar_names import nearest, suggest
 from floatref_conformance.checks.catalogue import IDS, LeftOut, not_built
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.streams.stream_catalogue import STREAM_CHECKS
 from floatref_conformance.devices.interface import Device, DeviceKind
 
 
@@ -43,6 +44,9 @@ class Registry:
         if id_ in IDS:
             here = ", ".join(self.checks)
             raise InputError(f"check {id_}: not built yet; these can be run: {here}")
+        near = nearest(id_, STREAM_CHECKS)
+        if near:
+            raise InputError(f"check {id_}: unknown check; did you mean {near}?")
         known = suggest(id_, self.checks, "these can be run:")
         raise InputError(f"check {id_}: unknown check; {known}")
 
@@ -66,9 +70,11 @@ class Registry:
     def select(self, ids: Sequence[str]) -> tuple[tuple[Check, ...], tuple[LeftOut, ...]]:
         """Return the checks to run, and every other check with the reason why it is not run.
 
-        Without ``ids`` every check runs. Raises InputError for an id that cannot be run.
+        Without ``ids`` every check runs; ids of checks of streams select no check here. Raises
+        InputError for an id that cannot be run.
         """
-        wanted = {id_: self.check(id_) for id_ in (ids or self.checks)}
+        ours = [id_ for id_ in ids if id_ not in STREAM_CHECKS] if ids else self.checks
+        wanted = {id_: self.check(id_) for id_ in ours}
         chosen = tuple(check for check in self.checks.values() if check.id in wanted)
         others = [check for check in self.checks.values() if check.id not in wanted]
         unselected = tuple(LeftOut(c.id, "not selected", c.clause) for c in others)

@@ -39,8 +39,14 @@ if TYPE_CHECKING:
     from floatref.estimators.kalman import Noise as Noise
     from floatref.estimators.kalman import Plan as Plan
     from floatref.estimators.road_prior import RoadPrior as RoadPrior
+    from floatref.files import check_file as check_file
+    from floatref.files import map_bytes as map_bytes
+    from floatref.files import open_bytes as open_bytes
+    from floatref.files import read_bytes as read_bytes
     from floatref.files import read_profile as read_profile
     from floatref.files import read_recording as read_recording
+    from floatref.files import read_start as read_start
+    from floatref.files import real_path as real_path
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
@@ -181,8 +187,11 @@ _PUBLIC = {
     "ZHU_HALF_CAR": "vehicle_response",
     "agreement": "measures",
     "answers": "interfaces.markers",
+    "read_start": "files",
+    "real_path": "files",
     "c_sources": "c.c_sources",
     "channel_noise": "measures",
+    "check_file": "files",
     "check_readings": "vehicle_response",
     "constant_interval": "files.constant_interval",
     "count_decimals": "files.constant_interval",
@@ -194,12 +203,15 @@ _PUBLIC = {
     "join_blocks": "values.block",
     "join_points": "live.points",
     "make_stage": "engine.lookup",
+    "map_bytes": "files",
     "missing_extra": "errors",
     "on_common_grid": "measures",
+    "open_bytes": "files",
     "pipeline": "engine.lookup",
     "pipeline_capabilities": "engine.run",
     "pipelines": "engine.run",
     "process": "notebook",
+    "read_bytes": "files",
     "read_native": "mapping",
     "read_profile": "files",
     "read_recording": "files",

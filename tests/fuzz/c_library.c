@@ -10,7 +10,7 @@
 
 #include "c_draws.h"
 
-enum { LARGEST = 1 << 23, CALLS = 64, KINDS = 21 };
+enum { LARGEST = 1 << 23, CALLS = 64, KINDS = 22, LEVEL = 20, PITCH = 21 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -34,6 +34,7 @@ typedef union any_config {
     fr_encoder_screening_config encoder_screening;
     fr_usual_config usual;
     fr_level_config level;
+    fr_pitch_config pitch;
 } any_config;
 
 static void set_kalman(fr_kalman_filter_config *c, double count_m)
@@ -98,6 +99,10 @@ static fr_status of_kind(int kind, int what, any_config *config, size_t *size, v
              c.fit.front_m = 1.5; c.fit.rear_m = -1.5; c.fit.longest_s = 40.0;
              c.fit.most_travel_m = 200.0; c.fit.most_width = 16 + 8 * (int)draw(8);
              c.paths = 1 + (int)draw(2); c.back = (int)draw(2); c.missing = (int)draw(2))
+        KIND(21, pitch, c.rate_hz = 20.0 + 20.0 * draw(2); c.metres_per_count = count_m;
+             c.front_m = 0.1 + draw(20); c.rear_m = -1.5 * draw(2); c.lever_m = 0.3;
+             c.window_s = 5.0; c.shared_s = 5.0; c.paths = 1 + (int)draw(4); c.back = (int)draw(2);
+             c.missing = (int)draw(2))
     default:
         return FR_BAD_CONFIG;
     }
@@ -196,6 +201,17 @@ static fr_status call_level(int which, void *o, arrays *a)
     return status;
 }
 
+static fr_status call_pitch(int which, void *o, arrays *a)
+{
+    int64_t every;
+    switch (which) {
+    case 21: return fr_pitch_push(o, a->x, a->h, a->n, a->count / 4, &a->written);
+    case 56: return fr_pitch_take(o, a->heights, a->capacity, &a->written);
+    case 57: return fr_pitch_finish(o, &a->written);
+    default: return fr_pitch_every(o, &every);
+    }
+}
+
 /* One of the calls that take a finished profile, without an object. */
 static fr_status call_profile(int which, arrays *a)
 {
@@ -279,7 +295,11 @@ static fr_status call(int which, void *o, arrays *a)
     case 61:
     case 62:
     case 63: return call_level(which, o, a);
-    case 21: return fr_adaptive_finish(o, a->x, a->f, n, a->y, room, w);
+    case 21:
+    case 56:
+    case 57:
+    case 58: return call_pitch(which, o, a);
+    case 29: return fr_adaptive_finish(o, a->x, a->f, n, a->y, room, w);
     case 22: return fr_iri_finish(o, a->y, room, w);
     case 23: return fr_iri_value(o, a->capacity > 0 ? a->y : NULL);
     case 24: return fr_integral_push_steps(o, a->x, a->f, n, a->y, room, w);
@@ -301,8 +321,10 @@ static int fail(const char *what, int kind, int which)
 static int push_once(int kind, void **object, size_t size, int64_t *counts, long *done)
 {
     int which = draw(8) ? kind : (int)draw(CALLS), wrong = 0;
-    if (kind == 20 && draw(4) == 0)
+    if (kind == LEVEL && draw(4) == 0)
         which = draw(9) ? 60 : 61;
+    if (kind == PITCH && draw(4) == 0)
+        which = draw(9) ? 56 : 57;
     arrays a = drawn_arrays(counts);
     unsigned char *before = malloc(size);
     fr_real *y = malloc(a.capacity * sizeof *y + (a.capacity == 0));
@@ -339,10 +361,10 @@ static int one_object(long *done, long *objects)
 {
     any_config config;
     size_t size = 0, needed;
-    int kind = draw(100) ? (int)draw(KINDS - 1) : KINDS - 1; /* whose memory is 8 MB */
-    int wrong = 0;
+    int rare = draw(100) == 0, kind = rare ? LEVEL : (int)draw(KINDS - 1), wrong = 0;
     void *object, *out = NULL;
     int64_t counts = draw(1000);
+    kind = kind == LEVEL && !rare ? PITCH : kind; /* levelling has 8 MB */
     memset(&config, 0, sizeof config);
     of_kind(kind, 0, &config, NULL, NULL, NULL);
     if (draw(3) == 0)
@@ -355,7 +377,7 @@ static int one_object(long *done, long *objects)
     if (of_kind(kind, 2, &config, &needed, object, &out) != (size > 0 ? FR_OK : FR_BAD_CONFIG))
         wrong = fail("size and init disagree", kind, 0);
     *objects += size > 0;
-    for (int i = 0; size > 0 && !wrong && i < (kind == 20 ? 60 : 12); i++)
+    for (int i = 0; size > 0 && !wrong && i < (kind >= LEVEL ? 60 : 12); i++)
         wrong = push_once(kind, &object, size, &counts, done);
     free(object);
     return wrong;

@@ -10,10 +10,12 @@ from floatref import InputError, missing_extra
 
 @contextmanager
 def prefix_errors(where: object) -> Iterator[None]:
-    """Put ``where: `` before the text of any InputError raised inside."""
+    """Put ``where: `` before the text of any InputError raised inside, unless it is there."""
     try:
         yield
     except InputError as error:
+        if str(error).startswith(str(InputError(f"{where}: "))):
+            raise
         raise InputError(f"{where}: {error}") from error
 
 

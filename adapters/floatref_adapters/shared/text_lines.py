@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from floatref import InputError
+from floatref import InputError, open_bytes
 
 BLOCK = 1 << 20
 """Bytes read together."""
@@ -23,15 +23,6 @@ def text_lines(source: Path) -> Iterator[bytes]:
             yield line
 
 
-def first_bytes(source: Path, size: int) -> bytes:
-    """Return the first ``size`` bytes of ``source``, b"" if it is not a readable file."""
-    try:
-        with source.open("rb") as stream:
-            return stream.read(size) if source.is_file() else b""
-    except OSError:
-        return b""
-
-
 def _lines(source: Path) -> Iterator[bytes]:
     rest = b""
     for number, block in enumerate(blocks(source)):
@@ -49,9 +40,6 @@ def blocks(source: Path) -> Iterator[bytes]:
     """Yield the bytes of ``source`` in blocks; InputError if it cannot be read."""
     if source.is_dir():
         raise InputError(f"{source}: a folder; give a file")
-    try:
-        with source.open("rb") as stream:
-            while block := stream.read(BLOCK):
-                yield block
-    except OSError as error:
-        raise InputError(f"{source}: {error.strerror or error}; make it readable") from error
+    with open_bytes(source) as stream:
+        while block := stream.read(BLOCK):
+            yield block

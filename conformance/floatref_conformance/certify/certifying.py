@@ -6,6 +6,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from floatref.errors import InputError
+from floatref.files.sources import real_path
 from floatref.measures.locating.placing import MAX_OFFSET_M, apply_placement, place
 from floatref.values.profile import Profile
 from floatref_conformance.certify.judging.contents import (
@@ -142,7 +143,7 @@ def _stationary(
 def _check_apart(section: SectionPlan) -> None:
     """Raise InputError for a run that is the reference: it would agree with it, of course."""
     for run in section.runs:
-        if run.resolve() == section.reference.resolve():
+        if real_path(run) == real_path(section.reference):
             raise InputError(f"{run}: is the reference itself; leave it out of the runs")
 
 

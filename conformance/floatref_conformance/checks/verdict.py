@@ -201,7 +201,8 @@ class RunResult:
     ``replayed`` has for every case stored by an earlier run: ``file``, ``check``,
     ``outcome``, ``reason``, and ``value``, ``limit`` and ``unit`` of its worst measurement.
     ``timeout_s``, the time for a recording, and ``report``, the folder of the report, are as the
-    user gave them; None if not given. ``edition`` is the name of the checks' edition.
+    user gave them; None if not given. ``edition`` is the name of the checks' edition. ``streams``
+    has the checks of streams, empty for a device that does not stream.
     """
 
     device: Mapping[str, Any]
@@ -213,17 +214,28 @@ class RunResult:
     timeout_s: float | None = None
     report: Path | None = None
     edition: str = EDITION
+    streams: tuple[CheckResult, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
         """FAIL if a check or a kept case failed, INCOMPLETE if one was left out, else PASS."""
-        outcomes = [check.outcome for check in self.checks]
+        outcomes = [check.outcome for check in (*self.checks, *self.streams)]
         return verdict_on([*outcomes, *(Outcome(case["outcome"]) for case in self.replayed)])
 
     @property
     def false_alarms(self) -> int:
         """Number of healthy recordings that the device refused."""
-        return sum(check.false_alarms for check in self.checks)
+        return sum(check.false_alarms for check in (*self.checks, *self.streams))
+
+    @property
+    def streams_shown(self) -> tuple[CheckResult, ...]:
+        """The checks of streams that a report shows.
+
+        Where the user selected checks of recordings alone, those of streams need no mention.
+        """
+        left_out = any(check.outcome is Outcome.SKIP for check in self.checks)
+        ran = any(check.outcome is not Outcome.SKIP for check in self.streams)
+        return self.streams if ran or not left_out else ()
 
     @property
     def class_reached(self) -> DeviceClass | None:

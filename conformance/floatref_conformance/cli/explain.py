@@ -5,6 +5,8 @@ import textwrap
 import click
 
 from floatref_conformance.checks.interface import Check
+from floatref_conformance.checks.streams.stream_catalogue import STREAM_CHECKS
+from floatref_conformance.checks.streams.stream_check import StreamCheck
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.devices.interface import NEEDS
@@ -19,6 +21,9 @@ from floatref_conformance.render.drawing import draw
 def explain(id_: str, edition: str) -> None:
     """Explain what check ID asks, what it allows, and why."""
     registry = load_registry(edition)
+    if id_ in STREAM_CHECKS:
+        click.echo("\n".join(explain_stream(STREAM_CHECKS[id_], registry.killers(id_))))
+        return
     check = registry.check(id_)
     click.echo("\n".join(explanation(check, registry.killers(id_))))
 
@@ -36,6 +41,14 @@ def explanation(check: Check, killers: tuple[str, ...]) -> list[str]:
     if check.needs:
         lines.append(f"Needs: {', '.join(NEEDS[need] for need in sorted(check.needs))}")
     return [*lines, f"Must fail: {', '.join(killers) or 'no device yet'}"]
+
+
+def explain_stream(check: StreamCheck, killers: tuple[str, ...]) -> list[str]:
+    """Return the lines that explain a check of streams, whose limits hold for every class."""
+    lines = [f"{check.id}: {check.title}", "", f"Clause: {check.clause}", "", "Limits"]
+    lines += [f"  {quantity}: {limit}" for quantity, limit in check.limits.items()]
+    lines += ["", "Derivation", *_wrap(check.derivation), "", "Floor", *_wrap(check.floor)]
+    return [*lines, "", "Needs: a device that streams", f"Must fail: {', '.join(killers)}"]
 
 
 def _draw_case(check: Check) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from floatref_conformance.checks.catalogue import IDS, not_built
+from floatref_conformance.checks.streams.stream_catalogue import STREAM_CHECKS
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.devices.interface import NEEDS
 from floatref_conformance.plugins import load_registry
@@ -31,7 +32,12 @@ def list_(edition: str, as_json: bool) -> None:
     registry = load_registry(edition)
     for line in registry.broken:
         click.echo(f"Warning: {line}", err=True)
-    listing = {"edition": edition, "checks": _checks(registry), "devices": _devices(registry)}
+    listing = {
+        "edition": edition,
+        "checks": _checks(registry),
+        "stream_checks": _stream_checks(),
+        "devices": _devices(registry),
+    }
     click.echo(json.dumps(listing, indent=2) if as_json else _in_words(listing))
 
 
@@ -52,6 +58,13 @@ def _checks(registry: Registry) -> list[dict[str, Any]]:
     ]
 
 
+def _stream_checks() -> list[dict[str, Any]]:
+    return [
+        {"id": check.id, "title": check.title, "clause": check.clause}
+        for check in STREAM_CHECKS.values()
+    ]
+
+
 def _devices(registry: Registry) -> list[dict[str, Any]]:
     return [
         {
@@ -68,6 +81,8 @@ def _in_words(listing: dict[str, Any]) -> str:
     checks, devices = listing["checks"], listing["devices"]
     built = [check["id"] for check in checks if check["built"]]
     rows = [(c["id"], c["title"], _details(c)) for c in checks]
+    needs = "needs a device that streams"
+    rows += [(c["id"], c["title"], f"{c['clause']}; {needs}") for c in listing["stream_checks"]]
     lines = ["Checks", *_align(rows)]
     for kind, ours in groupby(devices, lambda device: device["spec"].partition(":")[0]):
         rows = [(d["spec"], d["summary"], _fails(d["fails"], built)) for d in ours]

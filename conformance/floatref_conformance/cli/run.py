@@ -15,6 +15,7 @@ from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.in_processes import refuse_processes
 from floatref_conformance.judge.runner import Plan
 from floatref_conformance.judge.search import check_installed
+from floatref_conformance.judge.stream_judging import StreamPlan
 from floatref_conformance.judge.waivers import check_used, read_waivers
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.report import JsonOutput
@@ -130,6 +131,7 @@ def run(
                 timeout_s=device_timeout,
                 report=report,
                 edition=find_edition(edition),
+                streams=StreamPlan.of(ids),
             )
             if plan.searching:
                 check_installed()

@@ -9,6 +9,7 @@ from rich.progress import Progress
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.judge.search import check_installed
+from floatref_conformance.judge.stream_judging import StreamPlan
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
 from floatref_conformance.selftest.counts import Counts, find_killers
@@ -96,5 +97,6 @@ def _count(ids: tuple[str, ...], extent: Extent, edition: Edition) -> Counts:
             find_killers(registry),
             extent,
             lambda items, count, title: progress.track(items, count, description=title),
+            tuple(check.id for check in StreamPlan.of(ids).checks),
         )
         return work.count()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from floatref.errors import InputError, TargetExists
+from floatref.files.sources import real_path
 
 if TYPE_CHECKING:
     from floatref_conformance.proving_ground.scenario import Scenario
@@ -107,7 +108,7 @@ def _check_targets(out: Path, truth: Path | None, overwrite: bool) -> None:
             continue
         if not overwrite and (target.exists() or target.is_symlink()):
             raise TargetExists(f"{target}: exists; choose another name")
-        if not target.resolve().parent.is_dir():
+        if not real_path(target).parent.is_dir():
             raise InputError(f"{target}: its folder does not exist; make it first")
-    if truth is not None and truth.resolve() == out.resolve():
+    if truth is not None and real_path(truth) == real_path(out):
         raise InputError(f"{truth}: is the recording's own folder; choose another")

@@ -13,10 +13,14 @@ from floatref.errors import InputError
 from floatref.files import read_recording, write_profile
 from floatref.values.display.similar_names import suggest
 from floatref.values.profile import Profile
-from floatref.values.recording import Recording
+from floatref.values.recording import Recording, Setup
 from floatref_conformance.classes import DeviceClass
+from floatref_conformance.devices.host import stream_alone
 from floatref_conformance.devices.interface import ARCHITECTURES, DeviceEntry, DeviceKind
+from floatref_conformance.devices.streams.serving import Clocks, Stream
 
+MODULE = "floatref_conformance.devices.builtin"
+"""This module, as a process that answers a stream imports it."""
 RECOMMENDED = "road-prior-smoother"
 """The default device: suppression for a temporal profiler."""
 CLAIMS: Mapping[str, DeviceClass] = {
@@ -56,6 +60,15 @@ class BuiltinDevice:
             "architecture": named[0] if named else "temporal",
             "capabilities": list(floatref.pipeline_capabilities(self.pipeline)),
         }
+
+    @property
+    def live_argv(self) -> tuple[str, ...]:
+        """The command line of a process that answers a stream with the pipeline."""
+        return (sys.executable, "-m", MODULE, self.pipeline)
+
+    def open_stream(self, setup: Setup, clocks: Clocks) -> Stream:
+        """Return a stream of floatref."""
+        return floatref.start_stream(setup, clocks, self.pipeline)
 
     def run(self, recording: Path, profile: Path) -> None:
         """Process ``recording`` and write the profile directory ``profile``."""
@@ -102,3 +115,6 @@ def entries() -> tuple[DeviceEntry, ...]:
 
 
 BUILTIN = DeviceKind("builtin", "PIPELINE", make, entries)
+
+if __name__ == "__main__":
+    stream_alone(make(sys.argv[1]).open_stream)

@@ -39,6 +39,19 @@ class ExecDevice:
         """Return the program's description of itself; DeviceError without a usable one."""
         return self._start().device
 
+    @property
+    def live_argv(self) -> tuple[str, ...] | None:
+        """The command line for a stream: the same one, if the program declares `streaming`.
+
+        None if it does not. DeviceError without a usable description.
+        """
+        declared = self.describe().get("streaming", False)
+        if not isinstance(declared, bool):
+            raise DeviceError(
+                f"gives a description with streaming {declared!r}; give true or false"
+            )
+        return self.argv if declared else None
+
     def run(self, recording: Path, profile: Path) -> None:
         """Let the program process ``recording``; DeviceError, DeviceHung or DeviceSkipped."""
         limit_s = self.timeout_s

@@ -1,23 +1,27 @@
 """The process of a `python:` device: it runs a vendor's object by the protocol of programs.
 
 `python -m floatref_conformance.devices.host package.module:factory`. Output of the vendor's code
-goes to standard error; its standard input is empty.
+goes to standard error; its standard input is empty. A process whose first line is a `hello` of a
+stream answers that stream by the object's ``open_stream``, and ends.
 """
 
 import json
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from importlib import import_module
 from io import TextIOWrapper
+from itertools import chain
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
+from floatref_conformance.devices.streams.serving import OpenStream, serve_stream
 from floatref_conformance.errors import DeviceSkipped
 
+Order = Callable[[Iterator[Mapping[str, Any]]], Iterator[Mapping[str, Any]]]
 FIND = "--find"
 """Option: the host only answers whether it finds the factory."""
 
@@ -43,10 +47,17 @@ def serve(
     commands: Iterable[Mapping[str, Any]],
     answer: Callable[[Mapping[str, Any]], None],
 ) -> None:
-    """Let the object of the factory ``spec`` answer ``commands``, until `stop`."""
+    """Let the object of the factory ``spec`` answer ``commands``, until `stop`.
+
+    If the first is of a stream, let it answer the stream.
+    """
     device: Any = None
     reply: Mapping[str, Any]
-    for command in commands:
+    coming = iter(commands)
+    for command in coming:
+        if "kind" in command:
+            serve_stream(find_factory(spec)().open_stream, chain([command], coming), answer)
+            break
         if command["cmd"] == "stop":
             break
         try:
@@ -61,6 +72,15 @@ def serve(
             answer({"seq": command["seq"], **_fault(error)})
     if hasattr(device, "close"):
         device.close()
+
+
+def stream_alone(open_stream: OpenStream, order: Order = iter) -> None:
+    """Answer one stream on standard input and output by what ``open_stream`` makes.
+
+    ``order`` puts the messages into the order in which they are obeyed.
+    """
+    messages, answers = _pipes()
+    serve_stream(open_stream, order(map(json.loads, messages)), partial(_write, answers))
 
 
 def find_factory(spec: str) -> Callable[[], Any]:

@@ -2,6 +2,7 @@
 
 import os
 from collections import deque
+from dataclasses import dataclass
 from queue import SimpleQueue
 from threading import Condition, Thread
 from time import monotonic, sleep
@@ -18,6 +19,19 @@ TAIL_BYTES = 64 << 10
 CHUNK = 64 << 10
 
 
+@dataclass(frozen=True)
+class Most:
+    """How much a device may write, in bytes: in a line, before the next command, and in sum."""
+
+    line: int = MAX_LINE
+    unread: int = MAX_UNREAD
+    total: int = MAX_OUTPUT
+
+
+OF_COMMANDS = Most()
+"""What a device may write that answers commands."""
+
+
 class Lines:
     """Lines of a stream, taken one by one; reading stops when the stream exceeds a limit.
 
@@ -27,8 +41,9 @@ class Lines:
         rest: bytes since the end of the last line.
     """
 
-    def __init__(self, stream: IO[bytes]) -> None:
-        """Begin to read ``stream``."""
+    def __init__(self, stream: IO[bytes], most: Most = OF_COMMANDS) -> None:
+        """Begin to read ``stream``, which may write ``most``."""
+        self._most = most
         self.ended = False
         self.fault = ""
         self.rest = b""
@@ -58,19 +73,20 @@ class Lines:
                 self._changed.notify_all()
 
     def _add(self, chunk: bytes) -> None:
+        most = self._most
         *lines, self.rest = (self.rest + chunk).split(b"\n")
         self._total += len(chunk)
         for line in lines:
-            if len(line) > MAX_LINE:
+            if len(line) > most.line:
                 break
             self._lines.append(line)
             self._unread += len(line) + 1
-        if any(len(line) > MAX_LINE for line in (*lines, self.rest)):
-            self.fault = f"wrote a line longer than {MAX_LINE >> 20} MiB"
-        elif self._total > MAX_OUTPUT:
-            self.fault = f"wrote more than {MAX_OUTPUT >> 20} MiB"
-        elif self._unread > MAX_UNREAD:
-            self.fault = f"wrote more than {MAX_UNREAD >> 20} MiB for one command"
+        if any(len(line) > most.line for line in (*lines, self.rest)):
+            self.fault = f"wrote a line longer than {most.line >> 20} MiB"
+        elif self._total > most.total:
+            self.fault = f"wrote more than {most.total >> 20} MiB"
+        elif self._unread > most.unread:
+            self.fault = f"wrote more than {most.unread >> 20} MiB for one command"
 
 
 class Tail:

@@ -11,7 +11,7 @@ from pathlib import Path
 from time import monotonic
 
 from floatref_conformance.devices.descendants import Descendants
-from floatref_conformance.devices.pipes import Feed, Lines, Tail
+from floatref_conformance.devices.pipes import OF_COMMANDS, Feed, Lines, Most, Tail
 from floatref_conformance.errors import DeviceError, DeviceHung
 
 STEP_S = 0.05
@@ -22,10 +22,10 @@ SHOWN_LINES = 5
 SHOWN_LENGTH = 200
 
 
-def start(argv: Sequence[str], folder: Path) -> "Child":
+def start(argv: Sequence[str], folder: Path, most: Most = OF_COMMANDS) -> "Child":
     """Start ``argv`` in ``folder`` without a shell, in a session of its own.
 
-    Raises DeviceError if it cannot be started.
+    It may write ``most``. Raises DeviceError if it cannot be started.
     """
     descendants, process = Descendants(), None
     try:
@@ -39,7 +39,7 @@ def start(argv: Sequence[str], folder: Path) -> "Child":
             env=descendants.environment,
             start_new_session=sys.platform != "win32",
         )
-        return Child(process, descendants)
+        return Child(process, descendants, most)
     except BaseException as error:
         descendants.end(process)
         if isinstance(error, (OSError, ValueError)):
@@ -51,7 +51,9 @@ def start(argv: Sequence[str], folder: Path) -> "Child":
 class Child:
     """A running process with three pipes, and its descendants."""
 
-    def __init__(self, process: "subprocess.Popen[bytes]", descendants: Descendants) -> None:
+    def __init__(
+        self, process: "subprocess.Popen[bytes]", descendants: Descendants, most: Most = OF_COMMANDS
+    ) -> None:
         """Begin to read what ``process`` writes."""
         if process.stdin is None or process.stdout is None or process.stderr is None:
             raise ValueError("a child needs three pipes")
@@ -61,9 +63,14 @@ class Child:
         self._is_gone = False
         self._concealed: list[bytes] = []
         self._feed = Feed(process.stdin)
-        self._lines = Lines(process.stdout)
+        self._lines = Lines(process.stdout, most)
         self._tail = Tail(process.stderr)
         atexit.register(self.kill)
+
+    @property
+    def pid(self) -> int:
+        """The id of the process, and of its session where there are sessions."""
+        return self._process.pid
 
     def conceal(self, folder: str) -> None:
         """Replace ``folder``, whose name differs from run to run, by "…" in all output.

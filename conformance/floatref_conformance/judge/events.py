@@ -1,6 +1,6 @@
 """The events of a run, one value each; renderers turn them into output."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -83,6 +83,10 @@ Event = (
     | CheckFinished
     | RunFinished
 )
+
+
+Emit = Callable[[Event], None]
+"""Is called with every event of a run."""
 
 
 class Renderer(Protocol):

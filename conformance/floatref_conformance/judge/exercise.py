@@ -11,6 +11,7 @@ import numpy as np
 
 from floatref.errors import FloatrefError
 from floatref.files import read_profile, write_recording
+from floatref.files.sources import real_path
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref_conformance.devices.delivered import take
@@ -60,7 +61,7 @@ def exercise(
     The device sees a new folder with a neutral name and the channels that it may receive.
     """
     with TemporaryDirectory(ignore_cleanup_errors=True) as name:
-        folder = Path(name).resolve()
+        folder = real_path(Path(name))
         given = visible(recording, description.channels)
         write_recording(given, folder / "recording")
         target = folder / "profile"
@@ -93,7 +94,7 @@ def _ask(question: Callable[[], Answer]) -> Answer:
 def _read(target: Path) -> Profile:
     """Return the profile in ``target``, read from a copy and held in memory."""
     with TemporaryDirectory(ignore_cleanup_errors=True) as name:
-        copy = Path(name).resolve() / target.name
+        copy = real_path(Path(name)) / target.name
         take(target, copy)
         try:
             profile = read_profile(copy)

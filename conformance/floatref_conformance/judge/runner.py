@@ -19,7 +19,7 @@ from floatref_conformance.judge.bench import Ahead
 from floatref_conformance.judge.events import (
     CaseReplayed,
     CheckFinished,
-    Event,
+    Emit,
     RunFinished,
     RunStarted,
 )
@@ -29,6 +29,7 @@ from floatref_conformance.judge.judging import (
     left_out_result,
     not_applicable_result,
 )
+from floatref_conformance.judge.stream_judging import StreamPlan, StreamTrial, judge_streams
 from floatref_conformance.judge.trial import Trial
 from floatref_conformance.judge.waivers import waive
 
@@ -55,6 +56,7 @@ class Plan:
         edition: of the checks.
         timeout_s, report: time for a recording in s, and folder of the report; the report names
             both, so that the run can be reproduced.
+        streams: the checks of streams, for a device that streams.
     """
 
     spec: str
@@ -71,9 +73,9 @@ class Plan:
     timeout_s: float | None = None
     report: Path | None = None
     edition: Edition = field(default_factory=find_edition)
+    streams: StreamPlan = field(default_factory=StreamPlan)
 
 
-Emit = Callable[[Event], None]
 Judged = tuple[list[CheckResult], list[Mapping[str, Any]]]
 """The results of checks, and of stored cases."""
 JudgeAll = Callable[[Plan, Description, Emit], Judged]
@@ -109,9 +111,21 @@ def _run(plan: Plan, emit: Emit, closing: Closing, judge_all: JudgeAll | None) -
         results, replayed = judge_all(plan, description, emit)
     results += [left_out_result(left_out) for left_out in plan.left_out]
     replayed += _skip_left_out(plan)
-    finished = _result(plan, description, results, replayed)
+    streams = () if fault is not None else _judge_streams(plan, description, emit, closing)
+    finished = replace(_result(plan, description, results, replayed), streams=streams)
     emit(RunFinished(finished))
     return finished
+
+
+def _judge_streams(
+    plan: Plan, description: Description, emit: Emit, closing: Closing
+) -> tuple[CheckResult, ...]:
+    """Return the results of the checks of streams; each run starts the device anew."""
+    trial = StreamTrial(
+        description, plan.device_class, plan.seed, plan.effort, emit, plan.timeout_s
+    )
+    results = judge_streams(plan.streams, plan.device, trial, closing.close)
+    return tuple(waive(result, plan.waivers) for result in results)
 
 
 def _judge_all(

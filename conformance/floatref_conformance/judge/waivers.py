@@ -5,7 +5,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from floatref.errors import InputError
+from floatref.files import read_bytes
 from floatref_conformance.checks.catalogue import IDS
+from floatref_conformance.checks.streams.stream_catalogue import STREAM_CHECKS
 from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 
 MOST_BYTES = 1 << 20
@@ -19,11 +21,10 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
     is named twice, and for a file that is not text.
     """
     try:
-        if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"{path}: larger than any list of waivers; name another file")
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}; name a file of waivers") from error
+        content = read_bytes(path, MOST_BYTES, "list of waivers")
+        lines = content.decode("utf-8-sig").splitlines()
+    except InputError as error:
+        raise InputError(f"{error}; name a file of waivers") from error
     except UnicodeDecodeError as error:
         raise InputError(
             f"{path}: not UTF-8; write one check per line: its id, then the reason"
@@ -34,7 +35,7 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
         id_, reason = [*text.split(maxsplit=1), "", ""][:2]
         if not id_:
             continue
-        if id_ in waivers or id_ not in {**known, **IDS}:
+        if id_ in waivers or id_ not in {**known, **IDS, **STREAM_CHECKS}:
             what = "waived twice" if id_ in waivers else "unknown check"
             raise InputError(f"{path}, line {number}: {id_}: {what}; known: {', '.join(known)}")
         waivers[id_] = reason.strip() or comment.strip() or "no reason given"
@@ -60,7 +61,7 @@ def check_used(waivers: Mapping[str, str], result: RunResult, path: Path) -> Non
 
     For a check that ended in an error it is unknown whether its waiver is still needed.
     """
-    found = {check.id: {check.outcome} for check in result.checks}
+    found = {check.id: {check.outcome} for check in (*result.checks, *result.streams)}
     for case in result.replayed:
         found.setdefault(case["check"], set()).add(Outcome(case["outcome"]))
     for id_ in waivers:
@@ -70,7 +71,7 @@ def check_used(waivers: Mapping[str, str], result: RunResult, path: Path) -> Non
 
 def _describe_unused(id_: str, result: RunResult) -> str:
     """Return why no failure of check ``id_`` was waived."""
-    check = next((check for check in result.checks if check.id == id_), None)
+    check = next((c for c in (*result.checks, *result.streams) if c.id == id_), None)
     if check is None or (check.outcome is Outcome.SKIP and not check.cases):
         return "was not run: nothing to waive; run it too, or delete the line"
     if check.outcome is Outcome.SKIP:

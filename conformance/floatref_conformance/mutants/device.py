@@ -2,7 +2,7 @@
 
 A mutant is a sound pipeline with one error before or after it. A check that passes the pipeline
 and fails the mutant has detected just this error. Hostile programs are also mutants: they deliver
-a sound profile and behave badly.
+a sound profile and behave badly. The mutants of streams make sound profiles of recordings.
 """
 
 from collections.abc import Mapping
@@ -20,6 +20,7 @@ from floatref_conformance.devices.builtin import BuiltinDevice, process_quietly
 from floatref_conformance.devices.interface import Device, DeviceEntry, DeviceKind
 from floatref_conformance.mutants import MUTATIONS
 from floatref_conformance.mutants.hostile import HOSTILE, hostile_device
+from floatref_conformance.mutants.in_streams import STREAM_MUTANTS, stream_mutant
 from floatref_conformance.mutants.mutation import Mutation
 
 
@@ -52,13 +53,15 @@ def make(name: str) -> Device:
             return Mutant(deepcopy(mutation))
     if name in [hostile.name for hostile in HOSTILE]:
         return hostile_device(name)
+    if name in [mutant.name for mutant in STREAM_MUTANTS]:
+        return stream_mutant(name)
     known = suggest(name, [entry.name for entry in entries()], "known:")
     raise InputError(f"device mutant:{name}: unknown mutant; {known}")
 
 
 def entries() -> tuple[DeviceEntry, ...]:
-    """Return one entry per mutant; a hostile program must fail all checks."""
-    wrong = tuple(DeviceEntry(m.name, m.wrong, m.fails) for m in MUTATIONS)
+    """Return one entry per mutant; a hostile program must fail all checks of recordings."""
+    wrong = tuple(DeviceEntry(m.name, m.wrong, m.fails) for m in (*MUTATIONS, *STREAM_MUTANTS))
     return wrong + tuple(DeviceEntry(h.name, h.wrong, tuple(IDS)) for h in HOSTILE)
 
 

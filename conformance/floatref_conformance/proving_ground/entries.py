@@ -16,11 +16,15 @@ from contextlib import contextmanager, suppress
 from errno import EEXIST, ENOTDIR, ENOTEMPTY
 from pathlib import Path
 
+from floatref.files import open_bytes, read_bytes
+
 CHECKSUMS = "checksums.json"
 NEW, OLD = ".new-", ".old-"
 """How the names of folders start that are on their way in or out."""
 ABANDONED_S = 86400.0
 """A folder on its way in or out that is older belongs to a process that died."""
+LARGEST_LIST = 1 << 20
+"""Bytes of the list of an entry's files."""
 KEY_LENGTH = 32
 """Number of hexadecimal digits of an entry's name."""
 
@@ -59,7 +63,7 @@ def use(entry: Path) -> bool:
 def is_intact(entry: Path) -> bool:
     """Return whether an entry exists and its files are unchanged."""
     try:
-        listed = json.loads((entry / CHECKSUMS).read_text(encoding="ascii"))
+        listed = json.loads(read_bytes(entry / CHECKSUMS, LARGEST_LIST, "list"))
         return bool(listed) and listed == _checksums(entry)
     except (OSError, ValueError):
         return False
@@ -119,7 +123,7 @@ def _files(entry: Path) -> Iterator[Path]:
 
 def _crc(path: Path) -> int:
     value = 0
-    with path.open("rb") as stream:
+    with open_bytes(path) as stream:
         while piece := stream.read(1 << 20):
             value = zlib.crc32(piece, value)
     return value

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
+from floatref.files import read_bytes
 from floatref_conformance.proving_ground.roads.files import FILE_ROAD, file_of
 from floatref_conformance.proving_ground.scenario import (
     FIRST_FORMAT,
@@ -25,15 +26,18 @@ CHOICES = {
 """The names that a field may have. A road may also be `measured:FILE`."""
 
 
+LARGEST_BYTES = 1 << 20
+
+
 def read_scenario(path: Path) -> Scenario:
     """Return the scenario in a JSON file; InputError with one line naming the file.
 
     The file of a road is found from the folder of the scenario file.
     """
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}; give a run or a scenario file") from error
+        document = json.loads(read_bytes(path, LARGEST_BYTES, "scenario").decode("utf-8"))
+    except InputError as error:
+        raise InputError(f"{error}; give a run or a scenario file") from error
     except ValueError as error:
         raise InputError(f"{path}: not JSON ({error}); write one object") from error
     except RecursionError as error:

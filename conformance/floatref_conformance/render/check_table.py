@@ -1,6 +1,7 @@
 """The judge's table: one row per check, with the quantity that is worst relative to its limit."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
@@ -14,6 +15,18 @@ from floatref_conformance.render.text import printable
 
 COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "red", Outcome.ERROR: "red"}
 NO_CLASS = "no class"
+
+
+def check_tables(result: RunResult, console: Console) -> list[Table]:
+    """Return the table of the checks of recordings, and that of streams if there is one.
+
+    Where checks of streams alone were run, theirs is the only one.
+    """
+    of_streams = replace(result, checks=result.streams_shown, streams=())
+    tables = [check_table(each, console) for each in (result, of_streams)]
+    if not tables[1].row_count:
+        return tables[:1]
+    return [table for table in tables if table.row_count]
 
 
 def check_table(result: RunResult, console: Console) -> Table:

@@ -91,6 +91,9 @@ def as_xml(result: RunResult, seconds: Mapping[str, float], begun: datetime) -> 
         SubElement(about, "property", name=name, value=printable(value))
     kept = [_replay_suite(replayed, result) for replayed in result.replayed]
     _suite(root, 1, "replayed cases", kept, begun)
+    if result.streams_shown:
+        streams = [_check(c, result, seconds.get(c.id, 0.0)) for c in result.streams_shown]
+        _suite(root, 2, "stream checks", streams, begun)
     root[0][-2].text = printable(_output(result))
     return root
 
@@ -180,7 +183,7 @@ def _properties(result: RunResult) -> list[tuple[str, str]]:
 
 def _output(result: RunResult) -> str:
     lines = [wording.verdict_line(result), *wording.not_run_lines(result)]
-    for check in result.checks:
+    for check in (*result.checks, *result.streams_shown):
         if check.shown is not None:
             reached = check.class_reached or "no class"
             lines.append(

@@ -125,7 +125,10 @@ def page_of(result: RunResult, checks: Sequence[Check]) -> Page:
         check.id: explain_check(check, f"asked-{n}") for n, check in enumerate(checks, start=1)
     }
     titles = {id_: one.title for id_, one in explained.items()}
-    ordered = sorted(result.checks, key=lambda check: _urgency(check, result.device_class))
+    ordered = sorted(
+        (*result.checks, *result.streams_shown),
+        key=lambda check: _urgency(check, result.device_class),
+    )
     shown = [check for check in ordered if check.outcome in SHOWN]
     anchors = {check.id: f"failure-{n}" for n, check in enumerate(shown, start=1)}
     targets = {id_: one.anchor for id_, one in explained.items()} | anchors

@@ -58,6 +58,8 @@ class JsonOutput:
 
 def as_json(result: RunResult) -> dict[str, Any]:
     """Return ``result`` as the object of format conformance-report/1; NaN becomes null."""
+    shown = result.streams_shown
+    streams = {"stream_checks": [_check(c, result.device_class) for c in shown]} if shown else {}
     return {
         "format": "conformance-report/1",
         "edition": result.edition,
@@ -68,6 +70,7 @@ def as_json(result: RunResult) -> dict[str, Any]:
         "effort": result.effort,
         "verdict": result.verdict.value,
         "checks": [_check(check, result.device_class) for check in result.checks],
+        **streams,
         "replayed": [finite(replayed) for replayed in result.replayed],
     }
 

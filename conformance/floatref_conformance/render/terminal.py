@@ -21,7 +21,7 @@ from floatref_conformance.judge.events import (
     ShrinkStarted,
 )
 from floatref_conformance.render import wording
-from floatref_conformance.render.check_table import check_table
+from floatref_conformance.render.check_table import check_tables
 from floatref_conformance.render.text import printable
 
 FAILURES = (*wording.FAILED, Outcome.WAIVED)
@@ -100,7 +100,8 @@ class TerminalRenderer:
 
     def _print_result(self, result: RunResult) -> None:
         self.close()
-        self.console.print(check_table(result, self.console), crop=False)
+        for table in check_tables(result, self.console):
+            self.console.print(table, crop=False)
         for line in result_lines(result, self.verbose, self.console.width):
             self._print(line)
 
@@ -126,7 +127,7 @@ def result_lines(result: RunResult, verbose: bool = False, width: int = PLAIN_WI
     not run is wrapped in ``width`` columns.
     """
     lines: list[str] = []
-    for check in result.checks:
+    for check in (*result.checks, *result.streams_shown):
         if check.outcome is not Outcome.SKIP or check.cases:
             lines += _check_lines(check, result.device_class, verbose)
     lines += [wording.replayed_line(replayed) for replayed in result.replayed]
@@ -168,7 +169,7 @@ def _what_to_do(result: RunResult) -> list[str]:
         for kept in result.replayed
         if kept["outcome"] in wording.FAILED
     ]
-    if any(check.outcome in wording.FAILED for check in result.checks):
+    if any(c.outcome in wording.FAILED for c in (*result.checks, *result.streams)):
         lines.append(f"Reproduce with: {wording.reproduction(result)}")
     return lines
 

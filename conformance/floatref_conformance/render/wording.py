@@ -102,7 +102,7 @@ def describe_false_alarms(check: CheckResult) -> str:
 def not_run_lines(result: RunResult) -> list[str]:
     """Return one line per reason for which checks were left out or skipped, naming them."""
     reasons: dict[str, list[str]] = {}
-    for check in result.checks:
+    for check in (*result.checks, *result.streams_shown):
         if check.outcome is Outcome.SKIP:
             what = "Skipped by the device" if check.cases else "Not run"
             reasons.setdefault(f"{what} ({check.reason})", []).append(check.id)
@@ -113,13 +113,17 @@ def summary(result: RunResult) -> str:
     """Return how many checks passed; what was not run is never called passed."""
     judged = [c for c in result.checks if c.outcome not in UNJUDGED]
     passed = sum(c.outcome is Outcome.PASS for c in judged)
-    parts = [f"{passed} of {len(judged)} checks that ran passed"]
+    parts = [f"{passed} of {len(judged)} checks that ran passed{_streams(result)}"]
     waived = sum(c.outcome is Outcome.WAIVED for c in judged)
     if waived:
         parts.append(f"{waived} failed and {_be(waived)} waived")
     left_out = sum(c.outcome is Outcome.SKIP for c in result.checks)
     if left_out:
         parts.append(f"{left_out} {_be(left_out)} not run and not judged")
+    left_out = sum(c.outcome is Outcome.SKIP for c in result.streams_shown)
+    if left_out:
+        checks = "stream check" if left_out == 1 else "stream checks"
+        parts.append(f"{left_out} {checks} {_be(left_out)} not run and not judged")
     if result.false_alarms:
         alarms = "false alarm" if result.false_alarms == 1 else "false alarms"
         parts.append(f"{result.false_alarms} {alarms}")
@@ -128,6 +132,13 @@ def summary(result: RunResult) -> str:
         verb = "fails" if again == 1 else "fail"
         parts.append(f"{again} of {len(result.replayed)} kept cases still {verb}")
     return "; ".join(parts)
+
+
+def _streams(result: RunResult) -> str:
+    """Return how many checks of streams passed; empty if no such check judged the device."""
+    judged = [c for c in result.streams if c.outcome not in UNJUDGED]
+    passed = sum(c.outcome is Outcome.PASS for c in judged)
+    return f" and {passed} of {len(judged)} stream checks" if judged else ""
 
 
 def _be(number: int) -> str:
@@ -169,7 +180,7 @@ def reproduction(result: RunResult, *ids: str) -> str:
         words += ["--effort", result.effort]
     if result.edition != EDITION:
         words += ["--edition", result.edition]
-    for id_ in ids or [c.id for c in result.checks if c.outcome in FAILED]:
+    for id_ in ids or [c.id for c in (*result.checks, *result.streams) if c.outcome in FAILED]:
         words += ["--check", id_]
     return shlex.join(words + _timeout(result))
 

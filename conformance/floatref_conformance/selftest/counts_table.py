@@ -20,7 +20,7 @@ def show(counts: Counts, console: Console) -> None:
     for id_ in counts.ids:
         table.add_row(id_, *_row(counts, id_))
     console.print(table)
-    for line in _totals(counts):
+    for line in (*_totals(counts), *counts.streams.lines):
         console.print(Text(line))
     for line in counts.complaints:
         console.print(Text(printable(f"  {line}"), style="red"))

@@ -23,6 +23,7 @@ from floatref_conformance.selftest.counts import (
     list_other_tries,
 )
 from floatref_conformance.selftest.grading import Limit, Roads, Situation, find_ungraded, grade
+from floatref_conformance.selftest.stream_tries import list_stream_tries, try_streams
 from floatref_conformance.selftest.trying import Try, TryResult, try_all
 
 GRADERS: Mapping[type, Callable[..., tuple[Situation, ...]]] = {
@@ -87,13 +88,17 @@ class Extent:
 
 @dataclass(frozen=True)
 class Work:
-    """The self-test of ``checks`` of ``edition``; ``track`` shows its progress."""
+    """The self-test of ``checks`` of ``edition``, and of the checks ``streams`` by their ids.
+
+    ``track`` shows the progress.
+    """
 
     checks: tuple[Check, ...]
     edition: Edition
     killers: Killers
     extent: Extent
     track: Track
+    streams: tuple[str, ...] = ()
 
     def count(self) -> Counts:
         """Return all counts; an error of the suite is raised."""
@@ -108,6 +113,10 @@ class Work:
             self._try("false alarms", list_claim_tries(ids, more, self.edition)),
             limits,
             list_ungraded(self.checks, limits) if extent.limits else (),
+            try_streams(
+                list_stream_tries(self.streams, extent.seeds, extent.false_alarms, extent.unique),
+                extent.processes,
+            ),
         )
 
     def _limits(self) -> tuple[Limit, ...]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from floatref.errors import InputError, missing_extra
 from floatref.files.atomic import check_target, replace_file
+from floatref.files.sources import real_path
 from floatref_conformance.table.cells import Cell, ComparisonTable
 from floatref_conformance.table.passes import FITTED
 from floatref_conformance.table.published import PRINTED_FLOOR, published_table
@@ -84,7 +85,7 @@ def check_picture(path: Path) -> None:
     try:
         if path.is_dir():
             raise InputError(f"{path}: is a folder; give the name of a file to write")
-        with NamedTemporaryFile(dir=path.resolve().parent, prefix=".floatref-"):
+        with NamedTemporaryFile(dir=real_path(path).parent, prefix=".floatref-"):
             pass
     except OSError as error:
         raise InputError(

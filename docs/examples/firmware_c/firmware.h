@@ -63,6 +63,7 @@ struct vehicle {
     size_t samples; /* of the run */
     double front_m, rear_m; /* axles */
     double lever_m;         /* middle of the lasers, ahead of that of the accelerometers */
+    bool on_levers;         /* a laser is not at its accelerometer */
     struct waiting *waiting;
 };
 

@@ -21,7 +21,8 @@ static fr_status begin_levelling(struct vehicle *vehicle, const struct path *pat
     config.fit.lean_sigma_rad = 0.03 / sqrt((double)vehicle->paths);
     TRY(begin_waiting(vehicle));
     TRY(MAKE(level, &config, &vehicle->waiting->level));
-    return fr_level_every(vehicle->waiting->level, &vehicle->waiting->every);
+    TRY(fr_level_every(vehicle->waiting->level, &vehicle->waiting->every));
+    return begin_pitch(vehicle, path);
 }
 
 fr_status stage_begin(struct path *path)
@@ -55,7 +56,8 @@ static fr_status send(struct waiting *w, struct path *path, size_t end)
         double t = fmin(fmax(((double)i - middle) / between, 0.0), 1.0);
         double place = (double)w->counts[i] * path->metres_per_count / path->interval_m;
         force[i] += (fr_real)(a->added + t * (b->added - a->added));
-        height[i] -= (fr_real)(path->lever_m * (a->sin_pitch + t * (b->sin_pitch - a->sin_pitch)));
+        double sin_pitch = a->sin_pitch + t * (b->sin_pitch - a->sin_pitch) + moved_pitch(w, i);
+        height[i] -= (fr_real)(path->lever_m * sin_pitch);
         share[i - first] = (fr_real)(a->share + t * (b->share - a->share));
         for (; path->placed < path->room && (double)path->placed <= place; path->placed++)
             path->unlevel[path->placed] = (fr_real)(a->sigma_m + t * (b->sigma_m - a->sigma_m));
@@ -79,19 +81,15 @@ static fr_status send_up_to(struct waiting *w, int paths, size_t end)
     return FR_OK;
 }
 
-/* Take the bins that are ready, and send the samples up to the middle of each. */
+/* Take the bins that are level, and send the samples up to the middle of each whose pitch is known. */
 static fr_status take_bins(struct waiting *w, int paths)
 {
-    fr_level_bin bin;
-    for (size_t found = 1;;) {
-        TRY(fr_level_take(w->level, &bin, 1, &found));
-        if (found == 0)
-            return FR_OK;
-        w->before = w->begun ? w->behind : bin;
-        w->behind = bin;
-        w->begun = true;
-        TRY(send_up_to(w, paths, (size_t)(bin.first + w->every / 2)));
-    }
+    size_t found, room = w->room - w->levelled;
+    TRY(fr_level_take(w->level, w->bins + w->levelled, room, &found));
+    w->levelled += found;
+    while (next_bin(w))
+        TRY(send_up_to(w, paths, (size_t)(w->behind.first + w->every / 2)));
+    return FR_OK;
 }
 
 /* Give the samples whose counts are known to the levelling. */
@@ -102,6 +100,7 @@ static fr_status level_known(struct waiting *w, int paths)
         size_t n = w->known - w->pushed > CHUNK ? CHUNK : w->known - w->pushed, ready;
         interleave(w, (size_t)paths, n, force, height);
         TRY(fr_level_push(w->level, force, height, w->counts + w->pushed, n, &ready));
+        TRY(model_pitch(w, force, height, w->counts + w->pushed, n));
         w->pushed += n;
         TRY(take_bins(w, paths));
     }
@@ -127,6 +126,7 @@ static fr_status end_levelling(struct waiting *w, int paths)
     end_counts(w);
     TRY(level_known(w, paths));
     TRY(fr_level_finish(w->level, &ready));
+    TRY(end_pitch(w));
     TRY(take_bins(w, paths));
     w->before = w->behind;
     return send_up_to(w, paths, w->taken);

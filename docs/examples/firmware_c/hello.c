@@ -5,6 +5,6 @@
 
 int main(void)
 {
-    struct device device = {"hello", "0.1", "temporal", NULL, "there is no pipeline yet"};
+    struct device device = {"hello", "0.1", "temporal", NULL, "there is no pipeline yet", NULL};
     return serve(&device);
 }

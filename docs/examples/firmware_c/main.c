@@ -6,6 +6,6 @@
 
 int main(void)
 {
-    struct device device = {"firmware_c", "2.0", "temporal", run, NULL};
+    struct device device = {"firmware_c", "2.0", "temporal", run, NULL, NULL};
     return serve(&device);
 }

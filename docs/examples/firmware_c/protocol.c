@@ -53,7 +53,7 @@ static void answer_start(const struct device *device, struct json request)
     json_write_text(stdout, device->version);
     printf(", \"architecture\": ");
     json_write_text(stdout, device->architecture);
-    printf(", \"capabilities\": []}}\n");
+    printf(", \"capabilities\": []%s}}\n", device->stream != NULL ? ", \"streaming\": true" : "");
 }
 
 static void answer_run(const struct device *device, struct json request)
@@ -80,6 +80,8 @@ static bool obey(const struct device *device, struct json request)
 {
     char command[16] = "";
     struct json value;
+    if (device->stream != NULL && json_is_object(request) && json_member(request, "kind", &value))
+        return device->stream(request);
     if (json_is_object(request) && json_member(request, "cmd", &value))
         json_text(value, command, sizeof command);
     if (strcmp(command, "stop") == 0)

@@ -58,6 +58,7 @@ void place_vehicle(struct vehicle *vehicle, const struct recording *recording)
     for (int i = 0; i < recording->tracks; i++) {
         reference_m += share * recording->reference_m[i];
         vehicle->lever_m += share * recording->lever_m[i];
+        vehicle->on_levers = vehicle->on_levers || recording->lever_m[i] != 0.0;
     }
     vehicle->front_m = recording->front_axle_m - reference_m - vehicle->lever_m;
     vehicle->rear_m = vehicle->front_m - recording->wheelbase_m;

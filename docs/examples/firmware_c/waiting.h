@@ -1,4 +1,4 @@
-/* Samples of all wheel paths that wait until they are level. */
+/* Samples of all wheel paths that wait until they are level, and their pitch is known. */
 #ifndef WAITING_H
 #define WAITING_H
 
@@ -15,8 +15,14 @@ struct waiting {
     struct path *path[MOST_LEVELLED];
     fr_level *level;
     int64_t every;               /* samples of a bin */
+    fr_level_bin *bins;          /* all of the run, of which `levelled` are there */
+    size_t room, levelled, joined;
     fr_level_bin before, behind; /* samples between their middles are next */
+    size_t number;               /* of bin `behind` in the run */
     bool begun, ended;
+    fr_pitch *pitch;             /* NULL where all lasers are at their accelerometers */
+    size_t pitched;              /* bins that the model has reached */
+    double *moved, held;         /* what it moves sin of the pitch by, up to `behind`; then that itself */
 };
 
 /* Memory for the samples of a run: FR_TOO_SMALL if there is no more, FR_BAD_CONFIG for more wheel
@@ -33,6 +39,20 @@ void store_counts(struct waiting *waiting, const int64_t *counts, size_t count);
 /* The next `count` samples of all paths, those of one time beside each other. */
 void interleave(const struct waiting *waiting, size_t paths, size_t count, fr_real *force,
                 fr_real *height);
+
+/* Memory for all bins of a run, and the model of the pitch if a laser is on a lever. */
+fr_status begin_pitch(struct vehicle *vehicle, const struct path *path);
+
+/* Give the model samples of all wheel paths, and take the bins that are ready. */
+fr_status model_pitch(struct waiting *waiting, const fr_real *force, const fr_real *height,
+                      const int64_t *counts, size_t count);
+fr_status end_pitch(struct waiting *waiting);
+
+/* Let `behind` be the next bin, if its pitch is known. */
+bool next_bin(struct waiting *waiting);
+
+/* By how much the model has moved the sine of the pitch at sample number `i`. */
+double moved_pitch(const struct waiting *waiting, size_t i);
 
 /* The end of a run: the last count holds. */
 void end_counts(struct waiting *waiting);

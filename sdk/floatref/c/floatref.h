@@ -1009,8 +1009,8 @@ FR_API fr_status fr_level_fit(const fr_level_fit_config *config, void *memory, s
  * fit.longest_s or fit.most_travel_m is fitted in windows that share 20 s. Where a fit is not found
  * the outcome says why, the share is 0 and the 1-sigma is 0.05 m.
  *
- * A push makes the fits of the stretches that end in it, each of some 0.1 s on a PC. No call models the
- * pitch between brakes: there heights stay as they are read, but for what the last brake has left.
+ * A push makes the fits of the stretches that end in it, each of some 0.1 s on a PC. Between brakes the
+ * pitch stays as the last brake has left it; fr_pitch models it there.
  */
 typedef struct fr_level_config {
     double rate_hz;          /* samples per second, at least 20; no default */
@@ -1056,6 +1056,51 @@ FR_API fr_status fr_level_finish(fr_level *level, size_t *ready);
 /* The bins that are ready, the first `capacity` of them, after the end too. */
 FR_API fr_status fr_level_take(fr_level *level, fr_level_bin *bins, size_t capacity,
                                size_t *written);
+
+/* ---------------------------------------------------------------------------------------------
+ * The pitch of the body from force, height and encoder, for a laser ahead of its accelerometer or
+ * behind it: that of a usual half car over the road that is measured, which the accelerometer
+ * corrects. Double in both builds. What comes out is the sine of the pitch in bins of about 10 ms,
+ * those of fr_level; a height is less by it times the lever of its laser. It has frequencies of
+ * 0.3 to 20 Hz, and what slower braking adds.
+ *
+ * A run is modelled in windows of window_s and the shared_s behind them, in which one passes into
+ * the next. A bin is ready when its window is complete, or the run has ended. Where road and brakes
+ * explain less than a quarter of how the accelerometer moves, as in a bounce test, and without a
+ * force or a height anywhere in a window, it is 0.
+ */
+typedef struct fr_pitch_config {
+    double rate_hz;          /* samples per second, at least 20; no default */
+    double metres_per_count; /* of the encoder, at most 10; no default */
+    double front_m;          /* front axle ahead of the middle of the lasers; no default */
+    double rear_m;           /* rear axle ahead of it, at least 0.1 less than that; no default */
+    double lever_m;          /* middle of the lasers ahead of that of their accelerometers; 0 */
+    double window_s;         /* shared_s to 3600; 600 */
+    double shared_s;         /* at least 5; 30 */
+    int32_t paths;           /* wheel paths, 1 to 4; 2 */
+    int32_t back;            /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
+    int32_t missing;         /* FR_MISSING_REFUSED, or FR_MISSING_BRIDGED: it does not count in its
+                                bin, and a bin of which more than half is missing is on a line */
+    int32_t reserved;        /* 0 */
+} fr_pitch_config;
+
+typedef struct fr_pitch fr_pitch;
+
+FR_API fr_pitch_config fr_pitch_defaults(void);
+FR_API size_t fr_pitch_size(const fr_pitch_config *config);
+FR_API fr_status fr_pitch_init(void *memory, size_t size, const fr_pitch_config *config,
+                               fr_pitch **out);
+/* Samples of a bin: the middle of bin k is at sample k every + (every - 1) / 2 of the run. */
+FR_API fr_status fr_pitch_every(const fr_pitch *pitch, int64_t *every);
+/* The samples of fr_level_push(), at most window_s at a time. FR_OUTPUT_FULL if they complete a window
+ * and bins of the one before are ready and not taken: *ready is their number. */
+FR_API fr_status fr_pitch_push(fr_pitch *pitch, const fr_real *force, const fr_real *height,
+                               const int64_t *counts, size_t count, size_t *ready);
+/* End the run: all bins become ready. What is ready has to be taken before. */
+FR_API fr_status fr_pitch_finish(fr_pitch *pitch, size_t *ready);
+/* The sine of the pitch, nose up, of the bins that are ready, the first `capacity` of them, after the
+ * end too. They are those behind the ones taken before, without a gap. */
+FR_API fr_status fr_pitch_take(fr_pitch *pitch, double *sin_pitch, size_t capacity, size_t *written);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,7 @@ import click
 from floatref.cli.printing import number, print_json, print_table, progress_bar
 from floatref.engine.recordings.readers import is_native, native_of, read_source, reader_of
 from floatref.errors import InputError, one_line
+from floatref.files.sources import real_path
 from floatref.values.clock import UniformClock
 from floatref.values.native import NativeClock, NativeFile, Stream
 from floatref.values.recording import Recording
@@ -120,7 +121,7 @@ def channels(
     if not is_native(reader):
         _list_recording(read_source(reader, file), file, reader.name, draft_map, as_json)
         return
-    options = {} if dbc is None else {"dbc": str(dbc.resolve())}
+    options = {} if dbc is None else {"dbc": str(real_path(dbc))}
     with native_of(reader, file, options) as native:
         if draft_map:
             _draft(native, file, reader.name, dbc)

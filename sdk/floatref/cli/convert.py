@@ -21,7 +21,7 @@ from floatref.engine.recordings.recording_formats import (
 )
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
-from floatref.files.sources import name_errors
+from floatref.files.sources import name_errors, real_path
 from floatref.files.withheld_formats import WITHHELD
 from floatref.interfaces.profile_format import ProfileFormat
 from floatref.interfaces.recording_format import RecordingFolder, RecordingFormat
@@ -179,7 +179,7 @@ def _convert_profile(source: Path, out: Path, form: str | None, overwrite: bool)
 
 def _check_apart(source: Path, out: Path) -> None:
     """Raise InputError for a target that is the source itself, its folder, or inside it."""
-    origin, target = source.resolve(), out.resolve()
+    origin, target = real_path(source), real_path(out)
     if target in (origin, origin.parent) or origin in target.parents:
         raise InputError(f"{out}: is, holds, or lies in, the source itself; choose another place")
 

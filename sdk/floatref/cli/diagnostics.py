@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from floatref.cli.printing import number, print_table
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replace_file
+from floatref.files.sources import real_path
 
 if TYPE_CHECKING:
     from floatref.engine.run import Result
@@ -43,7 +44,7 @@ def check_picture(out: Path, plot: Path | None, overwrite: bool) -> None:
     from floatref.plots import check_drawing
 
     picture = picture_beside(out)
-    if plot is not None and plot.resolve() == picture.resolve():
+    if plot is not None and real_path(plot) == real_path(picture):
         raise InputError(f"{plot}: is the name of the innovations' picture; choose another")
     check_target(picture, overwrite)
     check_drawing(picture)

@@ -21,6 +21,7 @@ from floatref.engine.formats import format_of, write_as
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replace_file
 from floatref.files.settings_file import read_settings
+from floatref.files.sources import real_path
 from floatref.mapping.sources import make_profile, recording_of
 from floatref.values.profile import Profile, ProfileTrack
 
@@ -90,11 +91,11 @@ def process(
 def _check_targets(source: Path, out: Path, plot: Path | None, overwrite: bool) -> None:
     """Raise InputError now for a target to which writing would fail later."""
     check_target(out, overwrite)
-    if out.resolve() == source.resolve() or source.resolve() in out.resolve().parents:
+    if real_path(out) == real_path(source) or real_path(source) in real_path(out).parents:
         raise InputError(f"{out}: is, or is inside, the source; choose another place")
     if plot is None:
         return
-    if plot.resolve() == out.resolve():
+    if real_path(plot) == real_path(out):
         raise InputError(f"{plot}: is the profile's own name; choose another for the drawing")
     from floatref.plots import check_drawing
 

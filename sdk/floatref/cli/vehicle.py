@@ -12,7 +12,7 @@ from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.atomic import check_target, replace_file
 from floatref.files.document import write_document
-from floatref.files.sources import name_errors
+from floatref.files.sources import name_errors, real_path
 
 PAIRS = (("lean_expected_rad", "lean_sigma_rad"), ("tilt_expected", "tilt_sigma"))
 """Estimates of a run, each with its 1-σ."""
@@ -55,7 +55,7 @@ def vehicle(
     check_target(out, overwrite)
     if not profiles and slip is None:
         raise InputError("no profile is given; give PROFILEs, or --slip BRAKE PASS, or both")
-    if len({place.resolve() for place in profiles}) < len(profiles):
+    if len({real_path(place) for place in profiles}) < len(profiles):
         raise InputError("a profile is given twice; give every run once")
     pipeline, learned = _read_estimates(profiles) if profiles else ("", [])
     settings = combine_estimates(learned) if learned else {}

@@ -10,7 +10,7 @@ from floatref.engine.recordings.readers import find_readers
 from floatref.engine.recordings.recognising_profiles import profile_formats_of
 from floatref.errors import FloatrefError, InputError, PluginError
 from floatref.files import read_profile, write_profile
-from floatref.files.sources import name_errors
+from floatref.files.sources import check_source, name_errors
 from floatref.files.withheld_formats import refuse_to_read, refuse_to_write
 from floatref.interfaces.adapter import RecordingDirectory
 from floatref.interfaces.profile_format import ProfileDirectory, ProfileFormat
@@ -26,6 +26,7 @@ def profile_of(path: Path) -> Profile:
     error of a format.
     """
     path = Path(path)
+    check_source(path)
     found = profile_formats_of(path)
     if not found or RecordingDirectory().recognises(path):
         _refuse_recording(path)

@@ -5,17 +5,25 @@ on reading and on writing; a directory is written completely or not at all.
 """
 
 from floatref.files.fingerprint import fingerprint, fingerprint_native
+from floatref.files.mapped_files import map_bytes
 from floatref.files.profile_csv import write_profile_csv
 from floatref.files.profile_directory import read_profile, write_profile
 from floatref.files.recording_directory import read_recording, write_recording
 from floatref.files.schema import read_schema
+from floatref.files.sources import check_file, open_bytes, read_bytes, read_start, real_path
 
 __all__ = [
+    "check_file",
     "fingerprint",
     "fingerprint_native",
+    "map_bytes",
+    "open_bytes",
+    "read_bytes",
     "read_profile",
     "read_recording",
     "read_schema",
+    "read_start",
+    "real_path",
     "write_profile",
     "write_profile_csv",
     "write_recording",

@@ -70,6 +70,8 @@ def _target(path: Path, overwrite: bool) -> Path:
     except ValueError as error:
         raise InputError(f"{str(path)!a}: no possible file name; choose another") from error
     _refuse_existing(target, overwrite)
+    if os.path.exists(target) and not (os.path.isfile(target) or os.path.isdir(target)):
+        raise InputError(f"{path}: is not a file or folder; give the name of one to write")
     if not os.path.isdir(target.parent):
         raise InputError(f"{path}: its folder does not exist; make {target.parent} first")
     return target

@@ -16,7 +16,7 @@ from floatref.errors import InputError
 from floatref.files.atomic import replace_file
 from floatref.files.document import plain, write_document
 from floatref.files.profile_directory import DOCUMENT, FORMAT, SCHEMA
-from floatref.files.samples import SAMPLE, free_name
+from floatref.files.samples import SAMPLE, free_name, read_flags, read_samples
 from floatref.files.schema import enforce
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import ProfileTrack
@@ -154,11 +154,13 @@ class GrowingProfile:
     def _read_track(self, name: str, low: int, count: int) -> ProfileTrack:
         files = dict(zip(self.names, self._files(), strict=True))[name]
         paths = [self.directory / each for each in files]
-        elevation = np.fromfile(paths[0], SAMPLE, count, offset=8 * low)
-        valid = np.fromfile(paths[1], np.uint8, count, offset=low)
+        end = low + count
+        # Copies, for the files go on growing.
+        elevation = read_samples(paths[0], end)[low:].copy()
+        valid = read_flags(paths[1], end)[low:]
         sigma = None
         if name in self.with_sigma:
-            sigma = np.fromfile(paths[2], SAMPLE, count, offset=8 * low)
+            sigma = read_samples(paths[2], end)[low:].copy()
         return ProfileTrack.of(name, elevation, valid, sigma)
 
 

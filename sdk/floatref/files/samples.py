@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
-from floatref.files.sources import open_bytes
+from floatref.files.mapped_files import map_bytes
 from floatref.values.arrays import BoolArray, FloatArray, frozen
 from floatref.values.scanning import chunks
 
@@ -62,20 +62,18 @@ def free_name(stem: str, suffix: str, taken: set[str]) -> str:
 
 
 def _map_file(path: Path, item_bytes: int, count: int | None = None) -> NDArray[np.uint8]:
-    with open_bytes(path) as stream:
-        size = stream.seek(0, 2)
-        if count is not None and size >= count * item_bytes:
-            return np.memmap(stream, dtype=np.uint8, mode="r", shape=(count * item_bytes,))
-        if count is not None:
-            raise InputError(
-                f"{path}: {size // item_bytes} points, but profile.json has {count}; the file is "
-                "truncated, copy the directory again"
-            )
-        if size == 0:
-            raise InputError(f"{path}: empty; copy the complete file")
-        if size % item_bytes:
-            raise InputError(
-                f"{path}: {size} bytes are not a whole number of float64 samples; "
-                "the file is truncated or of another type, copy or convert it again"
-            )
-        return np.memmap(stream, dtype=np.uint8, mode="r")
+    found = map_bytes(path)
+    if count is not None and found.size < count * item_bytes:
+        raise InputError(
+            f"{path}: {found.size // item_bytes} points, but profile.json has {count}; the file is "
+            "truncated, copy the directory again"
+        )
+    if count is not None:
+        # More may be there: points are written before the document counts them.
+        return found[: count * item_bytes]
+    if found.size % item_bytes:
+        raise InputError(
+            f"{path}: {found.size} bytes are not a whole number of float64 samples; "
+            "the file is truncated or of another type, copy or convert it again"
+        )
+    return found

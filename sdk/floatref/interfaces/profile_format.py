@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import Protocol
 
-from floatref.files import read_profile, write_profile, write_profile_csv
+from floatref.errors import InputError
+from floatref.files import open_bytes, read_profile, write_profile, write_profile_csv
 from floatref.files.constant_interval import DISTANCE
 from floatref.files.profile_directory import DOCUMENT
 from floatref.values.profile import Profile
@@ -65,10 +66,13 @@ class ProfileTable:
 
     def recognises(self, path: Path) -> bool:
         """Return whether the first row of ``path`` names a column of distance."""
-        if path.suffix.lower() == ".json" or not path.is_file():
+        if path.suffix.lower() == ".json" or path.is_dir():
             return False
-        with path.open("rb") as stream:
-            header = stream.readline(LONGEST_HEADER).removeprefix(b"\xef\xbb\xbf")
+        try:
+            with open_bytes(path) as stream:
+                header = stream.readline(LONGEST_HEADER).removeprefix(b"\xef\xbb\xbf")
+        except InputError:
+            return False
         return DISTANCE.encode() in (name.strip(b' "\r\n') for name in header.split(b","))
 
     def read(self, path: Path) -> Profile:

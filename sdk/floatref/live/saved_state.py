@@ -20,6 +20,7 @@ from floatref.engine.choosing import AUTO
 from floatref.errors import InputError
 from floatref.files.atomic import replace_file
 from floatref.files.recording_directory import describe_installation, setup_of
+from floatref.files.sources import open_bytes
 from floatref.live.declared_channels import Entrance, name_channel
 from floatref.live.following import Following
 from floatref.live.held_samples import HeldChannel
@@ -70,8 +71,8 @@ def load_state(path: Path) -> tuple[Following, Entrance]:
     try:
         arrays = _read_arrays(path)
         state = json.loads(arrays["state"].tobytes())
-    except OSError as error:
-        reason = error.strerror or str(error)
+    except InputError as error:
+        reason = str(error).removeprefix(f"{path}: ")
         raise InputError(f"{path}: cannot be read ({reason}); give a saved stream") from error
     except (BadZipFile, ValueError, KeyError, EOFError) as error:
         raise InputError(f"{path}: is no saved stream; save one with LiveStream.save") from error
@@ -86,7 +87,7 @@ def load_state(path: Path) -> tuple[Following, Entrance]:
 
 
 def _read_arrays(path: Path) -> Arrays:
-    with path.open("rb") as stream:
+    with open_bytes(path) as stream:
         stored = np.load(stream, allow_pickle=False)
         if not isinstance(stored, NpzFile):
             raise ValueError("one array alone")

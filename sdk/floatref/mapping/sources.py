@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from floatref.engine.recordings.readers import is_native, read_source, reader_of
 from floatref.errors import InputError
 from floatref.files import fingerprint, fingerprint_native
-from floatref.files.sources import name_errors
+from floatref.files.sources import name_errors, real_path
 from floatref.interfaces.adapter import Adapter, RecordingDirectory
 from floatref.values.recording import Recording
 
@@ -83,7 +83,7 @@ def _hashes_of(reader: Adapter, source: Path) -> dict[str, str]:
 def _place(hashes: Mapping[str, str], source: Path) -> dict[Path, str]:
     """Return ``hashes`` of files in the folder ``source``, or beside the file, by their paths."""
     folder = source if source.is_dir() else source.parent
-    return {folder.resolve() / name: value for name, value in hashes.items()}
+    return {real_path(folder) / name: value for name, value in hashes.items()}
 
 
 def _inputs(reading: "Reading", channel_map: Path | None) -> dict[Path, str]:
@@ -91,7 +91,7 @@ def _inputs(reading: "Reading", channel_map: Path | None) -> dict[Path, str]:
     files = [*reading.files.values(), *reading.databases]
     files += [] if channel_map is None else [channel_map]
     found: dict[Path, str] = {}
-    for file in dict.fromkeys(path.resolve() for path in files):
+    for file in dict.fromkeys(real_path(path) for path in files):
         found |= _place(fingerprint_native(file), file)
     return found
 
@@ -103,7 +103,7 @@ def _origin(
     origin: dict[str, Any] = {
         "source": source.name,
         "adapter": reading.adapters[""],
-        "sha256": _name_hashes(inputs, source.resolve().parent),
+        "sha256": _name_hashes(inputs, real_path(source).parent),
         "channels": dict(
             zip((str(c.id) for c in reading.recording.channels), reading.origins, strict=True)
         ),

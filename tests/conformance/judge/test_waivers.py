@@ -75,7 +75,7 @@ def test_what_waives_no_check_is_refused_with_file_and_line(read, text, words):
 
 def test_a_file_that_is_no_text_is_refused(tmp_path):
     (tmp_path / "bytes").write_bytes(b"toy \xff\xfe")
-    for name, words in (("bytes", "not UTF-8"), ("missing", "No such file"), (".", "directory")):
+    for name, words in (("bytes", "not UTF-8"), ("missing", "No such file"), (".", "is a folder")):
         with pytest.raises(InputError, match=words):
             read_waivers(tmp_path / name, KNOWN)
 

@@ -8,6 +8,7 @@ from floatref.files import read_profile, write_recording
 from floatref_conformance.checks.catalogue import IDS
 from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 from floatref_conformance.checks.stationary.parked_checks import BOUNCE, QUIESCENT
+from floatref_conformance.checks.streams.stream_catalogue import STREAM_CHECKS
 from floatref_conformance.classes import Effort
 from floatref_conformance.judge.bench import DeviceBench, make_taken
 from floatref_conformance.judge.exercise import describe
@@ -54,12 +55,12 @@ def test_each_mutant_says_what_is_wrong_and_names_checks_that_there_are():
     for entry in ENTRIES:
         assert entry.summary
         assert entry.fails
-        assert set(entry.fails) <= set(IDS)
-        assert list(entry.fails) == [id_ for id_ in IDS if id_ in entry.fails]
+        assert set(entry.fails) <= {*IDS, *STREAM_CHECKS}
+        assert list(entry.fails) == [id_ for id_ in (*IDS, *STREAM_CHECKS) if id_ in entry.fails]
 
 
 def test_each_check_is_the_only_one_that_some_mutant_names():
-    assert {entry.fails[0] for entry in ENTRIES if len(entry.fails) == 1} == set(IDS)
+    assert {entry.fails[0] for entry in ENTRIES if len(entry.fails) == 1} == {*IDS, *STREAM_CHECKS}
 
 
 @pytest.mark.slow

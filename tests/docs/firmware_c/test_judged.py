@@ -71,3 +71,10 @@ def test_with_the_road_prior_the_judge_passes_its_stops(build):
     assert "\nstop: pass" in said
     assert "\nnear-stop: pass" in said
     assert code == 4
+
+
+def test_a_laser_beside_its_accelerometer_is_carried_between_brakes(build):
+    code, said = judged(build("firmware", "STAGE=road_prior"), "throttle", "dead-start")
+    assert "\nthrottle: pass" in said
+    assert "\ndead-start: pass" in said
+    assert code == 4

@@ -2,6 +2,7 @@
 
 import json
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -75,6 +76,19 @@ def assert_near(found, wanted):
 def test_a_profile_is_that_of_the_pipeline(start, drives, drive, tmp_path):
     found = start(STAGE).profile_of(drives[drive], tmp_path / "run")
     assert_near(found, by_sdk(drives[drive]))
+
+
+def test_between_brakes_the_height_is_carried_as_by_the_sdk(start, simulated, tmp_path):
+    """Within a tenth of what carrying it changes; the joints of two parts are moved by less."""
+    drive = simulated(rate_hz=1000.0, laser_ahead_m=0.3)
+    tracks = {t: replace(p, laser_offset_m=(0.0, 0.0, 0.0)) for t, p in drive.setup.tracks.items()}
+    ignored = by_sdk(Recording(drive.channels, replace(drive.setup, tracks=tracks)))
+    found, wanted = start(STAGE).profile_of(drive, tmp_path / "run"), by_sdk(drive)
+    for mine, theirs, other in zip(found.tracks, wanted.tracks, ignored.tracks, strict=True):
+        both = np.asarray(mine.valid) & np.asarray(theirs.valid)
+        carried = np.max(np.abs(other.elevation - theirs.elevation)[both])
+        assert carried > 1e-4
+        assert np.max(np.abs(mine.elevation - theirs.elevation)[both]) <= 0.1 * carried
 
 
 def test_samples_that_are_missing_are_missing_for_the_smoother_too(start, drives, tmp_path):

@@ -26,6 +26,7 @@ REQUIRED = {
     "iri": {"interval_m": 0.25},
     "screening": ENCODER,
     "level": {**ENCODER, "fit__front_m": 1.5, "fit__rear_m": -1.5},
+    "pitch": {**ENCODER, "front_m": 1.5, "rear_m": -1.5},
     "road_prior": {**ENCODER, "interval_m": 0.125},
     "kalman_filter": INSIDE,
     "kalman": {**{f"filter__{name}": value for name, value in INSIDE.items()}, "interval_m": 0.125},

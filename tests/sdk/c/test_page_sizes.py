@@ -22,6 +22,7 @@ SETTINGS = {
     "screening": ENCODER,
     "level_fit": {"front_m": 1.5, "rear_m": -1.5},
     "level": {**ENCODER, "fit__front_m": 1.5, "fit__rear_m": -1.5},
+    "pitch": {**ENCODER, "front_m": 1.5, "rear_m": -1.5},
     "kalman_filter": {f"travel__{k}": v for k, v in ENCODER.items()},
     "kalman": {"interval_m": 0.025, **{f"filter__travel__{k}": v for k, v in ENCODER.items()}},
     "road_prior": {**ENCODER, "interval_m": 0.025},

@@ -222,3 +222,11 @@ def test_a_target_can_be_checked_before_the_work(tmp_path: Path) -> None:
     check_target(tmp_path / "file", overwrite=True)
     check_target(tmp_path / "new")
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("overwrite", [False, True])
+def test_a_pipe_is_no_target(tmp_path: Path, overwrite: bool) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(InputError, match=r"pipe: (is not a file or folder|exists); "):
+        check_target(tmp_path / "pipe", overwrite)

@@ -16,7 +16,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import InputError, NativeFile, Rows, Stream
+from floatref import InputError, NativeFile, Rows, Stream, read_start
 from floatref_adapters.formats.arrow.arrow_schema import (
     Table,
     decode_text,
@@ -96,11 +96,7 @@ def _open_ipc(source: Path) -> Source:
 
 
 def _start(source: Path) -> bytes:
-    try:
-        with source.open("rb") as stream:
-            return stream.read(8)
-    except OSError:
-        return b""
+    return read_start(source, 8)
 
 
 def _streams(

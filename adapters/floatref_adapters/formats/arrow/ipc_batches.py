@@ -6,12 +6,12 @@ so that one which was cut short still gives its whole batches.
 
 import mmap
 import struct
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from floatref import InputError
+from floatref import InputError, map_bytes
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.row_pieces import MOST_ROWS, count_piece_rows
 
@@ -20,6 +20,8 @@ MOST_COMPRESSED, MOST_TOGETHER = 1 << 25, 1 << 26
 """Rows of a compressed batch, which has to be unpacked as a whole, and samples of all columns."""
 MOST_UNPACKED = 1 << 27
 """Bytes of all compressed dictionaries of a file, which have to be kept."""
+ALWAYS_UNPACKED, WIDEST, LARGEST_RATIO = 1 << 24, 16, 100
+"""Bytes that a buffer may unpack to, whatever it is of; per row; and per byte that it has."""
 _LENGTH, _BUFFERS, _COMPRESSION = 4, 8, 10
 """Where the table of a record batch tells these, in its list of fields."""
 _DATA = 6
@@ -92,14 +94,11 @@ class IpcSource:
     @contextmanager
     def _map_bytes(self) -> Iterator[tuple[Any, mmap.mmap]]:
         """Yield the bytes of the stream, and the map that they are seen through."""
-        with self._path.open("rb") as stream:
-            mapped = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)
-        try:
-            yield self._arrow.py_buffer(mapped).slice(8 if mapped[:6] == MAGIC else 0), mapped
-        finally:
-            # Arrays that are still in use keep the map open until they are gone.
-            with suppress(BufferError):
-                mapped.close()
+        content = map_bytes(self._path)
+        mapped = content.base
+        assert isinstance(mapped, mmap.mmap)
+        # Arrays that are still in use keep the map open until they are gone.
+        yield self._arrow.py_buffer(content).slice(8 if mapped[:6] == MAGIC else 0), mapped
 
 
 def _let_go(mapped: mmap.mmap) -> None:
@@ -119,25 +118,36 @@ def _check(message: bytes, body: Any, dictionary: bool) -> _Batch:
         at = _place(message, table, _LENGTH)
         rows = struct.unpack_from("<q", message, table + at)[0] if at else 0
         packed = _place(message, table, _COMPRESSION) != 0
-        size = sum(_measure_unpacked(message, table, body)) if packed and dictionary else 0
+        sizes = list(_measure_unpacked(message, table, body)) if packed else []
     except struct.error as error:
         raise InputError("a record batch without its length; copy the file again") from error
     if rows < 0 or (packed and rows > MOST_COMPRESSED):
         raise InputError(
             f"a compressed batch of {rows} rows; write batches of at most {MOST_COMPRESSED}"
         )
-    return _Batch(rows, packed, size)
+    _check_buffers(sizes, rows)
+    return _Batch(rows, packed, sum(unpacked for _, unpacked in sizes) if dictionary else 0)
 
 
-def _measure_unpacked(message: bytes, table: int, body: Any) -> Iterator[int]:
-    """Yield how many bytes each buffer of a compressed batch has when it is unpacked."""
+def _check_buffers(sizes: Iterable[tuple[int, int]], rows: int) -> None:
+    """Raise InputError for a buffer that says it unpacks to more than its rows or bytes can be."""
+    for stored, unpacked in sizes:
+        if unpacked > max(ALWAYS_UNPACKED, WIDEST * rows, LARGEST_RATIO * stored):
+            raise InputError(
+                f"a buffer of {stored} bytes that unpacks to {unpacked}, in a batch of {rows} "
+                "rows; copy the complete file again"
+            )
+
+
+def _measure_unpacked(message: bytes, table: int, body: Any) -> Iterator[tuple[int, int]]:
+    """Yield the bytes of each buffer of a compressed batch, and those when it is unpacked."""
     vector = table + _place(message, table, _BUFFERS)
     vector += struct.unpack_from("<I", message, vector)[0]
     for k in range(struct.unpack_from("<I", message, vector)[0]):
         start, length = struct.unpack_from("<qq", message, vector + 4 + 16 * k)
         if length >= 8:
             size = struct.unpack_from("<q", body, start)[0]
-            yield length if size < 0 else size
+            yield length, (length if size < 0 else size)
 
 
 def _table(message: bytes, table: int, field: int) -> int:

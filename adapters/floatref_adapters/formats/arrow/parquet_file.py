@@ -4,6 +4,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from floatref import check_file, open_bytes
+from floatref_adapters.formats.arrow.parquet_pages import check_pages
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.row_pieces import count_piece_rows
 
@@ -31,6 +33,8 @@ class ParquetSource:
         turns = [names[:place].count(names[place]) for place in places]
         rows = count_piece_rows(len(places))
         with self._open() as opened:
+            with open_bytes(self._path) as file:
+                check_pages(file, wanted)
             for batch in opened.iter_batches(rows, columns=wanted, use_threads=False):
                 found = batch.schema.get_all_field_indices
                 yield [
@@ -40,5 +44,8 @@ class ParquetSource:
 
     def _open(self) -> Any:
         return library("pyarrow.parquet", "reading Parquet").ParquetFile(
-            self._path, buffer_size=BUFFER, pre_buffer=False, page_checksum_verification=True
+            check_file(self._path),
+            buffer_size=BUFFER,
+            pre_buffer=False,
+            page_checksum_verification=True,
         )

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from floatref import InputError
+from floatref import InputError, check_file, read_start
 from floatref_adapters.shared.profile_columns import DISTANCE, ELEVATION
 from floatref_adapters.shared.refusals import library
 
@@ -16,10 +16,7 @@ PROFILES = b"floatref-profile/"
 
 def begins_as_parquet(path: Path) -> bool:
     """Return whether ``path`` is a file that begins as a Parquet file does."""
-    if not path.is_file():
-        return False
-    with path.open("rb") as stream:
-        return stream.read(len(MARK)) == MARK
+    return read_start(path, len(MARK)) == MARK
 
 
 def holds_profile(path: Path) -> bool | None:
@@ -44,6 +41,6 @@ def _read_schema(path: Path) -> Any | None:
     except InputError:
         return None
     try:
-        return parquet.read_schema(path)
+        return parquet.read_schema(check_file(path))
     except (arrow.ArrowException, OSError, ValueError, OverflowError):
         return None

@@ -8,13 +8,14 @@ Columns are `distance_m`, then `<track>_elevation_m`, `<track>_valid` and, where
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import InputError, Profile, ProfileTrack
+from floatref import InputError, Profile, ProfileTrack, check_file, open_bytes
 from floatref_adapters.formats.arrow.parquet_footer import FORMAT, begins_as_parquet, holds_profile
+from floatref_adapters.formats.arrow.parquet_pages import check_pages
 from floatref_adapters.shared.profile_columns import (
     DISTANCE,
     make_columns,
@@ -58,8 +59,12 @@ class ParquetProfile:
         if not path.is_file():
             raise InputError(f"{path}: not a file; give a Parquet file")
         arrow, parquet = _libraries(f"{path}: reading Parquet")
-        with _explain(path, arrow), parquet.ParquetFile(path) as file:
-            return _profile(file)
+        with (
+            _explain(path, arrow),
+            open_bytes(path) as stream,
+            parquet.ParquetFile(check_file(path)) as file,
+        ):
+            return _profile(file, stream)
 
     def write(self, profile: Profile, path: Path) -> None:
         """Write ``profile`` to ``path``; InputError where pyarrow is missing."""
@@ -98,7 +103,7 @@ def _schema(profile: Profile, arrow: Any) -> Any:
     return arrow.schema(fields, metadata={"format": FORMAT, **make_metadata(profile)})
 
 
-def _profile(file: Any) -> Profile:
+def _profile(file: Any, stream: BinaryIO) -> Profile:
     metadata = {
         key.decode("utf-8", "replace"): value.decode("utf-8", "replace")
         for key, value in (file.schema_arrow.metadata or {}).items()
@@ -112,6 +117,7 @@ def _profile(file: Any) -> Profile:
     _check_columns(there, names)
     parts: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
     done = 0
+    check_pages(stream, names)
     for batch in file.iter_batches(ROWS, columns=list(parts)):
         _check_distance(_floats(batch, DISTANCE), description.start_m, description.interval_m, done)
         for name, values in parts.items():

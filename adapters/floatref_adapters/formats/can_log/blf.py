@@ -12,7 +12,7 @@ from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
-from floatref import InputError
+from floatref import InputError, open_bytes
 
 HEADER = 144
 SIZED = struct.Struct("<4sL")
@@ -52,15 +52,12 @@ class SoundBlf:
         self._pieces.close()
 
     def _rewrite(self, source: Path) -> Generator[bytes, None, None]:
-        try:
-            with source.open("rb") as stream:
-                yield _header(source, stream)
-                for frames in self._frames(self._unpack(stream)):
-                    size = BASE.size + CONTAINER.size + len(frames)
-                    yield BASE.pack(SIGNATURE, BASE.size, 1, size, LOG_CONTAINER)
-                    yield CONTAINER.pack(STORED, len(frames)) + frames + bytes(size % 4)
-        except OSError as error:
-            raise InputError(f"{source}: {error.strerror or error}; make it readable") from error
+        with open_bytes(source) as stream:
+            yield _header(source, stream)
+            for frames in self._frames(self._unpack(stream)):
+                size = BASE.size + CONTAINER.size + len(frames)
+                yield BASE.pack(SIGNATURE, BASE.size, 1, size, LOG_CONTAINER)
+                yield CONTAINER.pack(STORED, len(frames)) + frames + bytes(size % 4)
 
     def _unpack(self, stream: BinaryIO) -> Iterator[bytes]:
         """Yield what the containers hold, b"" where one is damaged."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from floatref import Column, InputError
+from floatref import Column, InputError, open_bytes
 from floatref_adapters.shared.refusals import library
 
 LARGEST = 1 << 26
@@ -69,14 +69,10 @@ def _load(path: Path) -> Any:
     cantools = library("cantools", f"{path}: reading a CAN database")
     logging.getLogger("cantools").addHandler(logging.NullHandler())
     try:
-        if path.stat().st_size > LARGEST:
-            raise InputError(f"{path}: a CAN database of more than 64 MiB; give the DBC of the bus")
+        _check_size(path)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             database = cantools.database.load_file(path, strict=False)
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"{path}: {reason}; give the path of a DBC in option dbc") from error
     except InputError:
         raise
     except Exception as error:
@@ -86,6 +82,17 @@ def _load(path: Path) -> Any:
     if not hasattr(database, "messages"):
         raise InputError(f"{path}: a database of diagnostics, not of CAN messages; give a DBC")
     return database
+
+
+def _check_size(path: Path) -> None:
+    """Raise InputError unless ``path`` is a file that can be a database; cantools opens it."""
+    try:
+        with open_bytes(path) as stream:
+            size = stream.seek(0, 2)
+    except InputError as error:
+        raise InputError(f"{error}; give the path of a DBC in option dbc") from error
+    if size > LARGEST:
+        raise InputError(f"{path}: a CAN database of more than 64 MiB; give the DBC of the bus")
 
 
 def _column(signal: Any) -> Column:

@@ -7,8 +7,8 @@ from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
 
-from floatref import InputError
-from floatref_adapters.shared.text_lines import MARK, first_bytes
+from floatref import InputError, read_start
+from floatref_adapters.shared.text_lines import MARK
 
 HEAD = 1 << 13
 LATEST_NS = 1 << 62
@@ -101,7 +101,7 @@ FORMATS = (
 
 def find_format(source: Path) -> Format | None:
     """Return the format that the first bytes of ``source`` show, None if it is unknown."""
-    head = first_bytes(source, HEAD).removeprefix(MARK)
+    head = read_start(source, HEAD).removeprefix(MARK)
     # Line ends may be bare carriage returns, which ^ does not know.
     lines = head if head[:4] == b"LOGG" else head.replace(b"\r", b"\n")
     for form in FORMATS:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from floatref import InputError, NativeClock, NativeFile, Rows, Stream
+from floatref import InputError, NativeClock, NativeFile, Rows, Stream, read_start
 from floatref_adapters.formats.csv_table.table_layout import Layout, find_layout
 from floatref_adapters.formats.csv_table.table_rows import Piece, is_cut_short, pieces
 from floatref_adapters.formats.csv_table.text_pieces import find_encoding
@@ -46,9 +46,8 @@ class CsvTable:
         """Tell whether ``source`` is a .csv, .tsv or .txt file whose first lines are a table."""
         if source.suffix.lower() not in SUFFIXES or not source.is_file():
             return False
+        start = read_start(source, LISTED)
         try:
-            with source.open("rb") as stream:
-                start = stream.read(LISTED)
             text = start.decode(find_encoding(start), "replace")
             if _OTHERS.match(text.removeprefix("\ufeff")):
                 return False

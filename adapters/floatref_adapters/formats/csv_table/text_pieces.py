@@ -4,7 +4,7 @@ import codecs
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from floatref import InputError
+from floatref import InputError, open_bytes
 
 BLOCK = 1 << 20
 """Bytes read together."""
@@ -38,7 +38,7 @@ def find_encoding(start: bytes) -> str:
 
 def read_sample(path: Path) -> tuple[str, list[str]]:
     """Return the encoding of the file and its first lines, without ends, the last one whole."""
-    with path.open("rb") as stream:
+    with open_bytes(path) as stream:
         start = stream.read(SAMPLE)
         while len(start) < LARGEST_SAMPLE and _ends(start) < FEWEST_LINES:
             more = stream.read(SAMPLE)
@@ -66,7 +66,7 @@ def blocks(path: Path, encoding: str, delimiter: str) -> Iterator[Block]:
     of more than 16 MiB.
     """
     line, rest, nothing = 1, b"", WHITE + delimiter.encode()
-    with path.open("rb") as stream:
+    with open_bytes(path) as stream:
         for text in _unix(stream.read, encoding):
             body, rest = _whole_lines(rest + text, nothing)
             if len(rest) > LONGEST_LINE:

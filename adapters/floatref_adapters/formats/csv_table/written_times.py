@@ -15,6 +15,8 @@ from floatref_adapters.shared.time_texts import CLOCK, ISO, read_day_ns, read_is
 
 MOST_DIGITS = 18
 """Digits of a tick that int64 holds, whatever they are."""
+MOST_WRITTEN = 100
+"""Digits before or behind the decimal mark that a time may be written with; most are dropped."""
 LARGEST = 2.0**63
 EXACT_DIGITS = 15
 """Digits that a float64 holds, so that its product with a power of ten rounds to the tick."""
@@ -95,7 +97,12 @@ class Times:
         return found
 
     def widen(self, decimals: int, whole: int, exact: bool) -> "Times":
-        """Return this, with room for another number."""
+        """Return this, with room for another number; InputError for one that is no time."""
+        if max(decimals, whole) > MOST_WRITTEN:
+            raise InputError(
+                f"column {self.name}: a time with {max(decimals, whole)} digits on one side of its "
+                f"decimal mark; write times with up to {MOST_DIGITS} digits"
+            )
         if decimals <= self.decimals and whole <= self.whole and exact >= self.exact:
             return self
         return replace(

@@ -8,7 +8,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import InputError
+from floatref import InputError, map_bytes
 from floatref_adapters.formats.erd.erd_header import REAL, TEXT, ErdHeader
 
 Floats = NDArray[np.float64]
@@ -160,7 +160,7 @@ def _of_reals(header: ErdHeader, path: Path, wanted: Sequence[int]) -> Floats:
         )
     if size == 0:
         return np.empty((0, len(wanted)))
-    reals = np.memmap(beside, "<f4", "r").reshape(-1, count)
+    reals = map_bytes(beside).view("<f4").reshape(-1, count)
     values = np.stack([reals[:, index].astype(np.float64) for index in wanted], axis=1)
     if not (np.abs(values) < 1e6).all():
         raise InputError(

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import InputError, Profile, ProfileTrack
+from floatref import InputError, Profile, ProfileTrack, open_bytes, read_start
 from floatref_adapters.formats.erd.erd_header import (
     BYTE_ORDER_MARK,
     LONGEST_HEADER,
@@ -16,7 +16,14 @@ from floatref_adapters.formats.erd.erd_header import (
     parse_header,
 )
 from floatref_adapters.formats.erd.erd_numbers import read_numbers
-from floatref_adapters.formats.erd.erd_writing import ELEVATION, FORMAT, PIPELINE, VALID, write_erd
+from floatref_adapters.formats.erd.erd_writing import (
+    ELEVATION,
+    FORMAT,
+    HIGHEST_M,
+    PIPELINE,
+    VALID,
+    write_erd,
+)
 from floatref_adapters.shared.length_units import (
     WHEEL_PATHS,
     Ratio,
@@ -24,6 +31,7 @@ from floatref_adapters.shared.length_units import (
     to_metres,
 )
 from floatref_adapters.shared.numbered_names import number_repeats
+from floatref_adapters.shared.refusals import prefix_errors
 
 NO_ELEVATIONS = ("distance", "station", "chainage", "milepost")
 """What a channel in a unit of length may be and is no elevation."""
@@ -47,10 +55,7 @@ class Erd:
 
     def recognises(self, path: Path) -> bool:
         """Tell whether the first line of ``path`` is that of an ERD file."""
-        if not path.is_file():
-            return False
-        with path.open("rb") as stream:
-            start = stream.read(len(BYTE_ORDER_MARK) + len(MARK))
+        start = read_start(path, len(BYTE_ORDER_MARK) + len(MARK))
         return start.removeprefix(BYTE_ORDER_MARK).startswith(MARK)
 
     def read(self, path: Path) -> Profile:
@@ -61,13 +66,12 @@ class Erd:
         """
         if not path.is_file():
             raise InputError(f"{path}: not a file; give an ERD file")
-        try:
-            with path.open("rb") as stream:
-                header = parse_header(stream.read(LONGEST_HEADER))
-                unit = _step_unit(header)
-                found, left_out = _elevations(header)
-                wanted = [i for e in found for i in (e.channel, e.valid) if i is not None]
-                numbers = read_numbers(header, path, stream, wanted)
+        with prefix_errors(path), open_bytes(path) as stream:
+            header = parse_header(stream.read(LONGEST_HEADER))
+            unit = _step_unit(header)
+            found, left_out = _elevations(header)
+            wanted = [i for e in found for i in (e.channel, e.valid) if i is not None]
+            numbers = read_numbers(header, path, stream, wanted)
             columns = dict(zip(wanted, numbers.T, strict=True))
             return Profile(
                 interval_m=to_metres(header.step, unit),
@@ -76,10 +80,6 @@ class Erd:
                 pipeline=_pipeline(header),
                 provenance=_provenance(header, left_out),
             )
-        except InputError as error:
-            raise InputError(f"{path}: {error}") from error
-        except OSError as error:
-            raise InputError(f"{path}: {error.strerror or error}; make it readable") from error
 
     def write(self, profile: Profile, path: Path) -> None:
         """Write ``profile`` as text; InputError if a track has no elevation, or one too high."""
@@ -154,6 +154,12 @@ def _wheel_path(channel: ErdChannel, index: int) -> str:
 
 def _track(elevation: Elevation, columns: dict[int, NDArray[np.float64]]) -> ProfileTrack:
     values = to_metres(columns[elevation.channel], elevation.unit)
+    highest = float(np.nanmax(np.abs(values), initial=0.0))
+    if highest > HIGHEST_M:
+        raise InputError(
+            f"track {elevation.track}: an elevation of {highest:g} m; a road has at most "
+            f"{HIGHEST_M:g} m, correct the unit or the value"
+        )
     valid = None if elevation.valid is None else columns[elevation.valid]
     if valid is not None and not np.isin(valid, (0.0, 1.0)).all():
         bad = valid[~np.isin(valid, (0.0, 1.0))][0]

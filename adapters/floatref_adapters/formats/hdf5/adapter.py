@@ -11,7 +11,7 @@ and `start_s`; a dataset of its length in the group that is named like time, or 
 from collections.abc import Mapping
 from pathlib import Path
 
-from floatref import InputError, NativeFile
+from floatref import InputError, NativeFile, read_start
 from floatref_adapters.formats.hdf5.child_process import read_in_child
 from floatref_adapters.shared.refusals import prefix_errors
 
@@ -28,11 +28,7 @@ class Hdf5:
 
     def recognises(self, source: Path) -> bool:
         """Tell whether ``source`` has the signature of an HDF5 file."""
-        try:
-            with source.open("rb") as stream:
-                start = stream.read(OFFSETS[-1] + len(SIGNATURE))
-        except OSError:
-            return False
+        start = read_start(source, OFFSETS[-1] + len(SIGNATURE))
         return any(start.startswith(SIGNATURE, offset) for offset in OFFSETS)
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:

@@ -14,7 +14,7 @@ from pathlib import Path
 from threading import Timer
 from typing import Any, BinaryIO
 
-from floatref import InputError, NativeFile, Rows
+from floatref import InputError, NativeFile, Rows, real_path
 from floatref_adapters.shared.row_pieces import keep_freed_memory
 
 LONGEST_SILENCE_S = 60.0
@@ -45,7 +45,7 @@ _END = "end"
 
 def read_in_child(source: Path, options: Mapping[str, str]) -> NativeFile:
     """Return what the HDF5 file ``source`` holds; InputError if it cannot be used."""
-    request = _Request(source.resolve(), dict(options))
+    request = _Request(real_path(source), dict(options))
     listed: NativeFile
     (listed,) = _answers(request)
     streams = [

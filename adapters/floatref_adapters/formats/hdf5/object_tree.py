@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from floatref import InputError
+from floatref import InputError, check_file
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.stated_clock import RATES, STARTS, STEPS
 
@@ -65,7 +65,7 @@ def open_hdf5(path: Path) -> Iterator[Any]:
     """Yield the HDF5 file at ``path``; InputError in one line for what goes wrong with it."""
     h5py = library("h5py", "reading HDF5")
     try:
-        with h5py.File(path, "r", locking=False) as file:
+        with h5py.File(check_file(path), "r", locking=False) as file:
             yield file
     except InputError:
         raise

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from floatref import Recording
+from floatref import Recording, read_start
 from floatref_adapters.formats.mcap_log.mcap_reading import read_mcap
 from floatref_adapters.formats.mcap_log.mcap_writing import write_mcap
 from floatref_adapters.shared.refusals import library
@@ -24,11 +24,7 @@ class Mcap:
 
     def recognises(self, source: Path) -> bool:
         """Tell from its first bytes whether ``source`` is an MCAP file."""
-        try:
-            with source.open("rb") as file:
-                return file.read(len(MAGIC)) == MAGIC
-        except OSError:
-            return False
+        return read_start(source, len(MAGIC)) == MAGIC
 
     def read(self, source: Path) -> Recording:
         """Return the recording in ``source``; InputError if it cannot be used."""

@@ -10,7 +10,15 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import Channel, InputError, Recording, StampedClock, UniformClock, setup_of
+from floatref import (
+    Channel,
+    InputError,
+    Recording,
+    StampedClock,
+    UniformClock,
+    open_bytes,
+    setup_of,
+)
 from floatref_adapters.formats.mcap_log.mcap_writing import FORMAT, METADATA
 from floatref_adapters.formats.mcap_log.topics import TIME_FIELD, Topic, topic_of
 from floatref_adapters.shared.refusals import library, prefix_errors
@@ -29,7 +37,7 @@ def read_mcap(path: Path) -> Recording:
     program, and for one that is truncated or damaged.
     """
     reader = library("mcap.reader", "reading MCAP")
-    with prefix_errors(path), _explain(), path.open("rb") as file:
+    with prefix_errors(path), _explain(), open_bytes(path) as file:
         opened = reader.make_reader(file, validate_crcs=True)
         document = _document(opened)
         topics = [_parse(topic_of, entry) for entry in document["topics"]]

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from floatref import Column, InputError, NativeClock, NativeFile, Rows, Stream
+from floatref import Column, InputError, NativeClock, NativeFile, Rows, Stream, read_start
 from floatref_adapters.formats.mdf4.channel_group import Group, Piece
 from floatref_adapters.formats.mdf4.master_clock import Timing, find_timing, is_clock, start_of
-from floatref_adapters.formats.mdf4.mdf_opening import MAGIC, first_line, open_mdf, quiet
+from floatref_adapters.formats.mdf4.mdf_opening import MAGIC, OpenedMdf, first_line, open_mdf, quiet
 from floatref_adapters.formats.mdf4.record_fields import Field, find_unit
 from floatref_adapters.shared.numbered_names import number_repeats
+from floatref_adapters.shared.refusals import prefix_errors
 
 WIDEST_RECORD = 1 << 24
 LENGTHS, BUS_EVENTS, REMOTE_MASTER = 1, 2, 8
@@ -30,44 +31,37 @@ class Mdf4:
 
     def recognises(self, source: Path) -> bool:
         """Tell from its first bytes whether ``source`` is an MDF file, of any version."""
-        try:
-            with source.open("rb") as file:
-                return file.read(8) in MAGIC
-        except OSError:
-            return False
+        return read_start(source, 8) in MAGIC
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
         """Return the channel groups of ``source``; InputError if it cannot be read.
 
         Close it: asammdf keeps the file open.
         """
+        with prefix_errors(source):
+            opened = open_mdf(source)
         try:
-            mdf = open_mdf(source)
-        except InputError as error:
-            raise InputError(f"{source}: {error}") from error
-        except OSError as error:
-            raise InputError(f"{source}: {error.strerror or error}; make it readable") from error
-        try:
-            return _native(source, mdf)
+            return _native(opened)
         except Exception as error:
-            mdf.close()
+            opened.close()
             fault = str(error) if isinstance(error, InputError) else first_line(error)
         raise InputError(f"{source}: {fault}; the file is damaged")
 
 
-def _native(source: Path, mdf: Any) -> NativeFile:
+def _native(opened: OpenedMdf) -> NativeFile:
+    mdf = opened.mdf
     start, about_start = start_of(mdf.header)
     warnings = [about_start] if about_start else []
     names = number_repeats([_name(origin, k) for k, origin in enumerate(mdf.groups)])
     streams = []
     for number, (origin, name) in enumerate(zip(mdf.groups, names, strict=True)):
-        group = Group(source, mdf, number, origin, name)
+        group = Group(opened, number, origin, name)
         left_out = _explain_omission(group)
         if left_out:
             warnings.append(f"{name}: {left_out}")
         elif not origin.channel_group.flags & LENGTHS:
             streams.append(_stream(group, start, warnings))
-    return NativeFile(tuple(streams), tuple(warnings), close=mdf.close)
+    return NativeFile(tuple(streams), tuple(warnings), close=opened.close)
 
 
 def _name(origin: Any, number: int) -> str:
@@ -174,4 +168,4 @@ class Reader:
             raise self._fault(f"{first_line(error)}; the file is damaged") from error
 
     def _fault(self, text: str) -> InputError:
-        return InputError(f"{self.group.source}: {self.group.name}: {text}")
+        return InputError(f"{self.group.opened.source}: {self.group.name}: {text}")

@@ -7,11 +7,11 @@ recording asammdf says where the records are, in a copy that it has made.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, BinaryIO, Protocol
 
 import numpy as np
 
+from floatref import open_bytes
 from floatref_adapters.formats.mdf4.data_blocks import (
     Bytes,
     Part,
@@ -19,6 +19,7 @@ from floatref_adapters.formats.mdf4.data_blocks import (
     read_parts,
     split_records,
 )
+from floatref_adapters.formats.mdf4.mdf_opening import OpenedMdf
 from floatref_adapters.formats.mdf4.record_fields import Field, Marks, Numbers
 from floatref_adapters.shared.row_pieces import MOST_ROWS
 
@@ -79,10 +80,9 @@ def _count_records(piece: RecordPiece | SelectedPiece) -> Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """Channel group ``number`` of a file and its records; ``origin`` is asammdf's."""
+    """Channel group ``number`` of an opened file and its records; ``origin`` is asammdf's."""
 
-    source: Path
-    mdf: Any
+    opened: OpenedMdf
     number: int
     origin: Any
     name: str
@@ -109,7 +109,7 @@ class Group:
         if self.mixed:
             stored = sum(block.original_size for block in self.origin.get_data_blocks())
         else:
-            with Path(self.mdf.name).open("rb") as file:
+            with open_bytes(self.opened.records) as file:
                 stored = sum(part.bytes for part in self._find_parts(file))
         return int(stored) // self.width
 
@@ -120,7 +120,7 @@ class Group:
 
     def _read(self, count: int, rows: int) -> Iterator[Piece]:
         first = 0
-        with Path(self.mdf.name).open("rb") as file:
+        with open_bytes(self.opened.records) as file:
             parts = self._find_parts(file)
             for piece in split_records(read_parts(file, parts), self.width, rows):
                 piece = piece[: count - first]
@@ -130,7 +130,7 @@ class Group:
                 first += len(piece)
 
     def _find_parts(self, file: BinaryIO) -> list[Part]:
-        if Path(self.mdf.name) == self.source:
+        if not self.opened.unfinished:
             return find_parts(file, self.origin.data_group.data_block_addr, file.seek(0, 2))
         return [
             Part(
@@ -148,7 +148,7 @@ class Group:
         wanted = [(None, self.number, index) for index in indices]
         for first in range(0, count, rows):
             held = min(rows, count - first)
-            found = self.mdf.select(
+            found = self.opened.mdf.select(
                 wanted, record_offset=first, record_count=held, raw=True, copy_master=False
             )
             yield SelectedPiece(first, held, dict(zip(indices, found, strict=True)))

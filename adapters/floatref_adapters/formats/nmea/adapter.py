@@ -13,13 +13,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 
-from floatref import Epoch, InputError, NativeClock, NativeFile, Rows, Stream
+from floatref import Epoch, InputError, NativeClock, NativeFile, Rows, Stream, read_start
 from floatref_adapters.formats.nmea.day_count import DAY_NS, DayCount, read_day, read_time_of_day_ns
 from floatref_adapters.formats.nmea.sentence_fields import LAYOUTS, MOST, NotANumber, Quantity
 from floatref_adapters.formats.nmea.sentences import MOST_KINDS, Sentence, Sentences
 from floatref_adapters.shared.record_spool import Spool
 from floatref_adapters.shared.row_pieces import pile_rows
-from floatref_adapters.shared.text_lines import first_bytes
 
 HEAD = 1 << 13
 TALKED = re.compile(rb"[$!][A-Z]{2}(?:GGA|GNS|RMC|VTG|GLL|ZDA|GST|GSA|GSV|HDT|VDM),|\$PASHR,")
@@ -47,7 +46,7 @@ class Nmea:
 
     def recognises(self, source: Path) -> bool:
         """Tell whether ``source`` begins with sentences, and has no NovAtel logs between them."""
-        head = first_bytes(source, HEAD)
+        head = read_start(source, HEAD)
         return TALKED.search(head) is not None and NOVATEL.search(head) is None
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:

@@ -10,10 +10,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from floatref import read_start
 from floatref_adapters.formats.nmea.day_count import read_time_of_day_ns
 from floatref_adapters.formats.nmea.sentence_fields import LAYOUTS, Fields
 from floatref_adapters.shared.refusals import library
-from floatref_adapters.shared.text_lines import first_bytes, text_lines
+from floatref_adapters.shared.text_lines import text_lines
 
 SENTENCE = re.compile(r"[$!]([A-Za-z][A-Za-z0-9]{3,9})(,[^*$!]*)(?:(\*[0-9A-Fa-f]{2})(?!\w))?")
 LONGEST = 1024
@@ -39,7 +40,7 @@ class Sentences:
     def __init__(self, source: Path) -> None:
         self._source = source
         self._sum = library("pynmea2", f"{source}: reading NMEA 0183").NMEASentence.checksum
-        head = first_bytes(source, HEAD).decode("latin-1")
+        head = read_start(source, HEAD).decode("latin-1")
         self.checked = any(self._sound(found) for found in SENTENCE.finditer(head))
 
     def read(self, faults: Counter[str]) -> Iterator[Sentence]:

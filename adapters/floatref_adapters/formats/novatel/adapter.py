@@ -15,13 +15,12 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, Stream
+from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Rows, Stream, read_start
 from floatref_adapters.formats.novatel.decoder import Decoder
 from floatref_adapters.formats.novatel.log_frames import WEEK_MS, Frames, Log, is_sound
 from floatref_adapters.formats.novatel.log_layouts import LogLayout
 from floatref_adapters.shared.record_spool import Spool
 from floatref_adapters.shared.row_pieces import pile_rows
-from floatref_adapters.shared.text_lines import first_bytes
 
 HEAD = 1 << 16
 NAN = float("nan")
@@ -60,7 +59,7 @@ class NovAtel:
 
     def recognises(self, source: Path) -> bool:
         """Tell whether the first bytes of ``source`` hold the beginning of a log."""
-        head = first_bytes(source, HEAD)
+        head = read_start(source, HEAD)
         # Three bytes are found by chance in one compressed file in a few hundred.
         return any(not f["short"] or is_sound(head, f.start()) for f in BEGINS.finditer(head))
 

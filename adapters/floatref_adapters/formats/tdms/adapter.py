@@ -9,12 +9,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Stream
+from floatref import Column, Epoch, InputError, NativeClock, NativeFile, Stream, read_start
 from floatref_adapters.formats.tdms.group_rows import Reader, Source
 from floatref_adapters.formats.tdms.tdms_channel import TdmsChannel
 from floatref_adapters.formats.tdms.tdms_opening import MAGIC, first_line, quiet, read_metadata
 from floatref_adapters.formats.tdms.waveform_clock import NS, UNKNOWN, Waveforms
 from floatref_adapters.shared.numbered_names import number_repeats
+from floatref_adapters.shared.refusals import prefix_errors
 from floatref_adapters.shared.time_columns import time_column
 
 
@@ -26,20 +27,12 @@ class Tdms:
 
     def recognises(self, source: Path) -> bool:
         """Tell from its first bytes whether ``source`` is a TDMS file, not its index."""
-        try:
-            with source.open("rb") as file:
-                return file.read(4) == MAGIC
-        except OSError:
-            return False
+        return read_start(source, len(MAGIC)) == MAGIC
 
     def streams(self, source: Path, options: Mapping[str, str]) -> NativeFile:
         """Return the groups of ``source``; InputError if it cannot be read."""
-        try:
+        with prefix_errors(source):
             contents = read_metadata(source)
-        except InputError as error:
-            raise InputError(f"{source}: {error}") from error
-        except OSError as error:
-            raise InputError(f"{source}: {error.strerror or error}; make it readable") from error
         try:
             with quiet():
                 return _native(Source(source, contents))

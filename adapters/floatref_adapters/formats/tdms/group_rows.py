@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import InputError, Rows
+from floatref import InputError, Rows, open_bytes
 from floatref_adapters.formats.tdms.channel_values import Values, Window
 from floatref_adapters.formats.tdms.extents import find_extents
 from floatref_adapters.formats.tdms.tdms_channel import TdmsChannel
@@ -100,7 +100,7 @@ class Reader:
         makers = [self._maker(channel) for channel in channels]
         widest = max(values.row_bytes for values in lying)
         rows = min(max(PIECE_BYTES // widest, 1), count_piece_rows(len(channels)))
-        with self.source.path.open("rb") as file:
+        with open_bytes(self.source.path) as file:
             window = Window(file)
             for first in range(0, self.count, rows):
                 last = min(first + rows, self.count)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
-from floatref import InputError
+from floatref import InputError, open_bytes
 from floatref_adapters.formats.tdms.tdms_objects import Contents, read_contents
 from floatref_adapters.shared.refusals import library
 
@@ -32,22 +32,20 @@ class Guarded(io.BufferedReader):
         return super().read(size)
 
 
-def open_guarded(source: Path) -> Guarded:
-    """Return ``source``, opened; InputError if it is no chain of segments.
+@contextlib.contextmanager
+def open_guarded(source: Path) -> Iterator[Guarded]:
+    """Open ``source``; InputError if it is no chain of segments.
 
     An index file beside it is left alone: it may belong to another version of the file, and
     then values would be read from where they are not.
     """
     library("nptdms", "reading TDMS")
-    file = Guarded(io.FileIO(source))
-    try:
+    with open_bytes(source) as stream:
+        file = Guarded(stream.raw)
         for _ in _read_leads(file):
             pass
         file.seek(0)
-    except InputError:
-        file.close()
-        raise
-    return file
+        yield file
 
 
 def read_metadata(source: Path) -> Contents:
@@ -107,3 +105,5 @@ def _read_leads(file: BinaryIO) -> Iterator[tuple[int, int, int, int, bool]]:
             raise InputError(f"more than {MOST_SEGMENTS} segments; defragment the file")
     if not size >= LEAD_IN:
         raise InputError("not a TDMS file; copy the complete file")
+    if not segments:
+        raise InputError("cut off before the first value of its first segment; copy it again")

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floatref import InputError, Profile, ProfileTrack
+from floatref import InputError, Profile, ProfileTrack, open_bytes
 from floatref_adapters.formats.viewer_text.column_pairs import (
     NO_UNIT,
     SECTION,
@@ -49,10 +49,11 @@ class ViewerText:
 
     def recognises(self, path: Path) -> bool:
         """Tell whether the first line of ``path`` begins with a distance and has tabs."""
-        if not path.is_file():
+        try:
+            with open_bytes(path) as stream:
+                line = stream.readline(LONGEST_HEADER)
+        except InputError:
             return False
-        with path.open("rb") as stream:
-            line = stream.readline(LONGEST_HEADER)
         return is_header(line.decode("utf-8-sig", "replace"))
 
     def read(self, path: Path) -> Profile:
@@ -64,12 +65,10 @@ class ViewerText:
             raise InputError(f"{path}: not a file; give a text file")
         with prefix_errors(path):
             try:
-                with path.open(encoding="utf-8-sig", newline="") as stream:
+                with open_bytes(path) as raw, _text(raw) as stream:
                     return _profile(stream)
             except UnicodeDecodeError as error:
                 raise InputError("not UTF-8 text; export it as text again") from error
-            except OSError as error:
-                raise InputError(f"{error.strerror or error}; make it readable") from error
 
     def write(self, profile: Profile, path: Path) -> None:
         """Write ``profile`` in m; its validity where a point is not valid, but no 1-σ.
@@ -86,6 +85,10 @@ class ViewerText:
             decimals = distance_decimals(profile.start_m, profile.interval_m, count)
             for first in range(0, count, ROWS):
                 stream.writelines(_lines(profile, channels, first, decimals))
+
+
+def _text(raw: io.BufferedReader) -> io.TextIOWrapper:
+    return io.TextIOWrapper(raw, encoding="utf-8-sig", newline="")
 
 
 def _profile(stream: io.TextIOWrapper) -> Profile:

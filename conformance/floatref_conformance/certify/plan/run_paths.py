@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from floatref.errors import InputError
+from floatref.files.sources import real_path
 
 DOCUMENTS = ("profile.json", "recording.json")
 """Names of the JSON files of our directories: whoever names one means its directory."""
@@ -30,7 +31,7 @@ def runs_of(given: Sequence[str], folder: Path = Path()) -> tuple[Path, ...]:
         if not runs:
             raise InputError(f"{text}: holds no run; give a profile, a recording or a pattern")
         for path in runs:
-            found.setdefault(path.resolve(), path)
+            found.setdefault(real_path(path), path)
     return tuple(found.values())
 
 
@@ -56,7 +57,7 @@ def natural(text: str) -> list[tuple[str, int]]:
 
 def names_of(paths: Sequence[Path]) -> tuple[str, ...]:
     """Return a name for every path, all different: no longer a part of it than is needed."""
-    parts = [[_on_one_line(part) for part in path.resolve().parts[1:]] for path in paths]
+    parts = [[_on_one_line(part) for part in real_path(path).parts[1:]] for path in paths]
     bare = tuple(_bare(_on_one_line(path.name) or "run") for path in paths)
     longest = max(map(len, parts), default=0)
     deeper = ("/".join(names[-depth:]) for depth in range(1, longest + 1) for names in parts)

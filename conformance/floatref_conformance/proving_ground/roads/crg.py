@@ -16,7 +16,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from floatref.errors import InputError, missing_extra
-from floatref.files.sources import name_errors, open_bytes
+from floatref.files.sources import check_file, name_errors
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref_conformance.proving_ground.roads.road import (
     FULL_FROM_M,
@@ -77,8 +77,7 @@ def crg_road(
 @contextmanager
 def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
     """Open an OpenCRG file as it is stored but for its own modifiers, holes kept as holes."""
-    with open_bytes(path):
-        pass
+    check_file(path)
     try:
         import pycrg
     except ImportError as error:

@@ -14,6 +14,7 @@ from floatref.errors import InputError
 from floatref.files.profile_directory import DOCUMENT as PROFILE
 from floatref.files.profile_directory import FORMAT
 from floatref.files.recording_directory import DOCUMENT as RECORDING
+from floatref.files.sources import open_bytes
 from floatref.interfaces.adapter import RecordingDirectory
 
 TABLES = (".csv", ".tsv", ".txt")
@@ -99,13 +100,13 @@ def is_profile(path: Path) -> bool:
             return FORMAT.encode() in _footer(path)
         formats = plugins().profile_formats().values()
         return any(form.recognises(path) for form in formats if form.suffix == suffix != "")
-    except OSError:
+    except (InputError, OSError):
         return False
 
 
 def _footer(path: Path) -> bytes:
     """Return the end of a Parquet file, which holds its metadata; empty for any other."""
-    with path.open("rb") as stream:
+    with open_bytes(path) as stream:
         end = stream.seek(0, os.SEEK_END)
         stream.seek(max(0, end - 8))
         tail = stream.read(8)

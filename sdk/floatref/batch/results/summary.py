@@ -13,6 +13,7 @@ from floatref.batch.jobs.job import PROFILES
 from floatref.batch.results.record import Record, Row
 from floatref.errors import missing_extra
 from floatref.files.atomic import replace_file
+from floatref.files.sources import check_file
 from floatref.measures import rate_iri
 from floatref.measures.ride.segment_measures import MEASURES
 
@@ -151,6 +152,6 @@ def read_columns(out: Path, names: Sequence[str]) -> dict[str, list[Any]]:
     """Return the columns ``names`` of the summary in the folder ``out``; None is unknown."""
     from pyarrow import parquet
 
-    table = parquet.read_table(out / PARQUET, columns=list(names))
+    table = parquet.read_table(check_file(out / PARQUET), columns=list(names))
     found: dict[str, list[Any]] = table.to_pydict()
     return found

@@ -15,6 +15,7 @@ from floatref.files import fingerprint_native
 from floatref.files.document import plain
 from floatref.files.fingerprint import sha256
 from floatref.files.recording_directory import DOCUMENT
+from floatref.files.sources import real_path
 from floatref.mapping.channel_map.map_document import read_map
 from floatref.version import __version__
 
@@ -31,7 +32,7 @@ def list_what_matters(job: Job) -> dict[str, Any]:
     """Return all that the profile of ``job`` depends on besides the content of its inputs."""
     described: dict[str, Any] = plain(
         {
-            "source": str(job.source.resolve()),
+            "source": str(real_path(job.source)),
             "adapter": job.adapter,
             "map": None if job.channel_map is None else str(job.channel_map),
             "pipeline": job.pipeline,
@@ -73,9 +74,9 @@ def _are(files: Mapping[Path, str]) -> bool:
 
 def _has_no_more(source: Path, inputs: Mapping[Path, str]) -> bool:
     """Return whether the native folder ``source`` has no file that is not among ``inputs``."""
-    if not source.is_dir() or source.resolve() / DOCUMENT in inputs:
+    if not source.is_dir() or real_path(source) / DOCUMENT in inputs:
         return True
-    return {source.resolve() / name for name in fingerprint_native(source)} <= set(inputs)
+    return {real_path(source) / name for name in fingerprint_native(source)} <= set(inputs)
 
 
 Stamps = Mapping[str, tuple[int, ...]]

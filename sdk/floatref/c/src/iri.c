@@ -237,8 +237,8 @@ fr_status fr_iri_finish(fr_iri *iri, fr_real *trace, size_t capacity, size_t *wr
 
 fr_status fr_iri_value(const fr_iri *iri, fr_real *m_per_km)
 {
-    fr_status status = fr_ready(iri, IRI_MAGIC);
-    if (status != FR_OK && status != FR_WRONG_ORDER)
+    fr_status status = fr_readable(iri, IRI_MAGIC);
+    if (status != FR_OK)
         return status;
     if (m_per_km == NULL)
         return FR_NULL_POINTER;

@@ -115,8 +115,6 @@ fr_status fr_kalman_filter_finish(fr_kalman_filter *filter, double *reference_he
 
 fr_status fr_kalman_filter_left_out(const fr_kalman_filter *filter, int64_t count[4])
 {
-    fr_status status = fr_ready(filter, KALMAN_FILTER_MAGIC);
-    if (status != FR_OK && status != FR_WRONG_ORDER)
-        return status;
-    return fr_kalman_engine_left_out(&filter->engine, count);
+    fr_status status = fr_readable(filter, KALMAN_FILTER_MAGIC);
+    return status == FR_OK ? fr_kalman_engine_left_out(&filter->engine, count) : status;
 }

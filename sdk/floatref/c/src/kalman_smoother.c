@@ -48,24 +48,16 @@ static int smoother_is_possible(const fr_kalman_config *config)
            lies_within(config->tolerance_m, 0.0, FR_K_LARGEST);
 }
 
-static int32_t whole_at_least(double number, int32_t least)
-{
-    double most = (double)(INT32_MAX / 8), whole = ceil(number);
-    if (!(whole > (double)least))
-        return least;
-    return whole < most ? (int32_t)whole : (int32_t)most;
-}
-
 static fr_lag_pace kalman_pace(const fr_kalman_config *config)
 {
     double nodes_hz = fr_kalman_nodes_hz(&config->filter), section_s = 0.5 * config->lag_s;
     double most_hz = nodes_hz + (config->filter.gnss != 0 ? config->gnss_hz : 0.0) + 1.0;
     fr_lag_pace pace;
-    pace.nodes = whole_at_least(section_s * most_hz, 8);
+    pace.nodes = fr_whole_at_least(section_s * most_hz, 8);
     pace.updates = FR_K_KINDS * pace.nodes + FR_LAG_UPDATES;
-    pace.points = whole_at_least(section_s * config->fastest_mps / config->interval_m, 1);
-    pace.stops = whole_at_least(section_s / STOP_S, 1);
-    pace.patience = whole_at_least(STATIONARY_S * nodes_hz, 1);
+    pace.points = fr_whole_at_least(section_s * config->fastest_mps / config->interval_m, 1);
+    pace.stops = fr_whole_at_least(section_s / STOP_S, 1);
+    pace.patience = fr_whole_at_least(STATIONARY_S * nodes_hz, 1);
     pace.delay = 0;
     return pace;
 }
@@ -100,7 +92,7 @@ size_t fr_kalman_size(const fr_kalman_config *config)
 static int64_t segment_of(const fr_kalman_config *config)
 {
     double samples = KALMAN_SEGMENT_S * config->filter.travel.rate_hz;
-    return (int64_t)ldexp(1.0, whole_at_least(rint(log2(samples)), 0));
+    return (int64_t)ldexp(1.0, fr_whole_at_least(rint(log2(samples)), 0));
 }
 
 static void look_at(fr_kalman *kalman, fr_kalman_view *view)
@@ -236,8 +228,6 @@ fr_status fr_kalman_finish(fr_kalman *kalman, fr_real *elevation, fr_real *sigma
 
 fr_status fr_kalman_left_out(const fr_kalman *kalman, int64_t count[4])
 {
-    fr_status status = fr_ready(kalman, KALMAN_MAGIC);
-    if (status != FR_OK && status != FR_WRONG_ORDER)
-        return status;
-    return fr_kalman_engine_left_out(&kalman->engine, count);
+    fr_status status = fr_readable(kalman, KALMAN_MAGIC);
+    return status == FR_OK ? fr_kalman_engine_left_out(&kalman->engine, count) : status;
 }

@@ -2,16 +2,13 @@
  *
  * Levelling as samples come: settings, memory and calls.
  */
-#include <math.h>
-
+#include "bell.h"
+#include "bins.h"
 #include "level_model.h"
 #include "level_stage.h"
 
 #define LEVEL_MAGIC FR_MAGIC(40)
-#define BINS_HZ 100.0
 #define SMOOTHED_S 0.5
-#define BELL_S 0.06
-#define BELL_REACH 4.0
 #define AFTER_STOP_S 5.0
 #define BEFORE_START_S 3.0
 #define SIDE_S 30.0
@@ -19,7 +16,6 @@
 #define LEAST_TRAVEL_M 200.0
 #define LEAST_HZ 20.0
 #define FASTEST 1e6
-#define LARGEST 1e9
 
 fr_level_config fr_level_defaults(void)
 {
@@ -28,30 +24,24 @@ fr_level_config fr_level_defaults(void)
     return config;
 }
 
-static int32_t bins_in(double time_s, double step_s)
-{
-    return (int32_t)rint(time_s / step_s);
-}
-
 /* The lengths in bins that follow from a configuration, all else of the object is cleared. */
 static void set_lengths(fr_level *level, const fr_level_config *config)
 {
-    double every = fmax(1.0, rint(config->rate_hz / BINS_HZ));
+    double every = fr_bin_samples(config->rate_hz);
     double step_s = every / config->rate_hz;
     level->config = *config;
     level->config.fit.step_s = step_s;
     level->step_s = step_s;
     level->every = (int32_t)every;
-    level->smooth = bins_in(SMOOTHED_S, step_s);
-    level->reach = bins_in(BELL_REACH * BELL_S, step_s);
-    level->reach = level->reach < 2 ? 2 : level->reach;
-    level->ring = 2 * level->smooth + 2 * level->reach + LV_LEAST_BINS + 8;
-    level->after = bins_in(AFTER_STOP_S, step_s);
-    level->before = bins_in(BEFORE_START_S, step_s);
-    level->side = bins_in(SIDE_S, step_s);
-    level->window = bins_in(config->fit.longest_s, step_s);
-    level->shared = bins_in(SHARED_S, step_s);
-    level->room = level->window + 2 * level->side + bins_in((double)LV_SPARE_S, step_s);
+    level->smooth = fr_bins_in(SMOOTHED_S, step_s);
+    level->reach = fr_bell_reach(step_s);
+    level->ring = 2 * level->smooth + 2 * level->reach + FR_LEAST_BINS + 8;
+    level->after = fr_bins_in(AFTER_STOP_S, step_s);
+    level->before = fr_bins_in(BEFORE_START_S, step_s);
+    level->side = fr_bins_in(SIDE_S, step_s);
+    level->window = fr_bins_in(config->fit.longest_s, step_s);
+    level->shared = fr_bins_in(SHARED_S, step_s);
+    level->room = level->window + 2 * level->side + fr_bins_in((double)LV_SPARE_S, step_s);
 }
 
 typedef struct shelf {
@@ -108,25 +98,6 @@ size_t fr_level_size(const fr_level_config *config)
     return fr_lv_arrays(&lengths, NULL, &arrays);
 }
 
-/* Weights of the second derivative of a distance under a bell. */
-static void set_bell(const fr_level *level, lv_arrays *a)
-{
-    double moment = 0.0, total = 0.0, scale = 0.0;
-    for (int32_t i = -level->reach; i <= level->reach; i++) {
-        double place = (double)i * level->step_s, x = place / BELL_S;
-        total += exp(-0.5 * x * x);
-        moment += exp(-0.5 * x * x) * place * place;
-    }
-    for (int32_t i = -level->reach; i <= level->reach; i++) {
-        double place = (double)i * level->step_s, x = place / BELL_S;
-        double weight = exp(-0.5 * x * x) * (place * place - moment / total);
-        scale += weight * place * place;
-        a->bell[i < 0 ? -i : i] = weight;
-    }
-    for (int32_t i = 0; i <= level->reach; i++)
-        a->bell[i] *= 2.0 / scale;
-}
-
 fr_status fr_level_init(void *memory, size_t size, const fr_level_config *config, fr_level **out)
 {
     fr_level *level = (fr_level *)memory;
@@ -140,7 +111,7 @@ fr_status fr_level_init(void *memory, size_t size, const fr_level_config *config
     for (int32_t p = 0; p < LV_PATHS; p++)
         level->mean[p].last = (double)NAN;
     (void)fr_lv_arrays(level, memory, &arrays);
-    set_bell(level, &arrays);
+    fr_bell_set(arrays.bell, level->reach, level->step_s);
     *out = level;
     return FR_OK;
 }
@@ -155,18 +126,6 @@ fr_status fr_level_every(const fr_level *level, int64_t *every)
     return status;
 }
 
-static fr_status check_values(const fr_level *level, const fr_real *x, size_t count)
-{
-    size_t values = count * (size_t)level->config.paths;
-    fr_status status = count > FR_MOST_SAMPLES / LV_PATHS
-                           ? FR_TOO_MANY
-                           : fr_check_samples(x, values, level->config.missing);
-    for (size_t i = 0; i < values && status == FR_OK; i++)
-        if (x[i] > FR_R(LARGEST) || x[i] < FR_R(-LARGEST))
-            status = FR_BAD_SAMPLE;
-    return status;
-}
-
 /* Whether the bins that these samples complete have room in the queue. */
 static fr_status check_queue(const fr_level *level, size_t count)
 {
@@ -174,7 +133,7 @@ static fr_status check_queue(const fr_level *level, size_t count)
     int32_t ready = level->ready - level->taken;
     if ((double)count > most)
         return FR_TOO_MANY;
-    return ready > bins_in((double)LV_SPARE_S / 4.0, level->step_s) ? FR_OUTPUT_FULL : FR_OK;
+    return ready > fr_bins_in((double)LV_SPARE_S / 4.0, level->step_s) ? FR_OUTPUT_FULL : FR_OK;
 }
 
 static fr_status check_level_push(const fr_level *level, const fr_real *force, const fr_real *height,
@@ -184,9 +143,9 @@ static fr_status check_level_push(const fr_level *level, const fr_real *force, c
     if (status == FR_OK && ready == NULL)
         status = FR_NULL_POINTER;
     if (status == FR_OK)
-        status = check_values(level, force, count);
+        status = fr_check_paths(force, count, level->config.paths, level->config.missing);
     if (status == FR_OK)
-        status = check_values(level, height, count);
+        status = fr_check_paths(height, count, level->config.paths, level->config.missing);
     if (status == FR_OK)
         status = fr_check_counts(counts, count, level->config.back, level->furthest);
     return status == FR_OK ? check_queue(level, count) : status;
@@ -240,8 +199,8 @@ fr_status fr_level_finish(fr_level *level, size_t *ready)
 fr_status fr_level_take(fr_level *level, fr_level_bin *bins, size_t capacity, size_t *written)
 {
     lv_arrays a;
-    fr_status status = fr_ready(level, LEVEL_MAGIC);
-    if (status != FR_OK && !(status == FR_WRONG_ORDER))
+    fr_status status = fr_readable(level, LEVEL_MAGIC);
+    if (status != FR_OK)
         return status;
     if (written == NULL || (capacity > 0u && bins == NULL))
         return FR_NULL_POINTER;

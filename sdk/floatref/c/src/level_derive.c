@@ -2,20 +2,14 @@
  *
  * Bins from samples, and their speed and acceleration along the road, which need bins behind them.
  */
-#include <math.h>
-
+#include "bell.h"
+#include "bins.h"
 #include "level_model.h"
 #include "level_stage.h"
 
 static int32_t place_in(const fr_level *level, int64_t bin)
 {
     return (int32_t)(bin % (int64_t)level->ring);
-}
-
-/* The mean of what is known, NaN where that is less than half. */
-static double close_mean(double sum, int32_t count, int32_t every)
-{
-    return 2 * count >= every ? sum / (double)count : (double)NAN;
 }
 
 /* The height of all wheel paths together; not known unless all are. */
@@ -26,8 +20,8 @@ static void close_bin(fr_level *level, lv_arrays *a)
     double way = level->counted / (double)level->every * level->config.metres_per_count;
     for (int32_t p = 0; p < paths; p++) {
         lv_mean *mean = &level->mean[p];
-        a->force[at * paths + p] = close_mean(mean->force, mean->forces, level->every);
-        height += close_mean(mean->height, mean->heights, level->every);
+        a->force[at * paths + p] = fr_close_mean(mean->force, mean->forces, level->every);
+        height += fr_close_mean(mean->height, mean->heights, level->every);
         mean->force = 0.0;
         mean->height = 0.0;
         mean->forces = 0;
@@ -41,22 +35,14 @@ static void close_bin(fr_level *level, lv_arrays *a)
     level->bins++;
 }
 
-static void add_known(double *sum, int32_t *count, fr_real x)
-{
-    if (!fr_missing(x)) {
-        *sum += (double)x;
-        *count += 1;
-    }
-}
-
 int fr_lv_add_sample(fr_level *level, lv_arrays *a, const fr_real *force, const fr_real *height,
                      int64_t count)
 {
     if (level->bins == 0 && level->filled == 0)
         level->first_count = count;
     for (int32_t p = 0; p < level->config.paths; p++) {
-        add_known(&level->mean[p].force, &level->mean[p].forces, force[p]);
-        add_known(&level->mean[p].height, &level->mean[p].heights, height[p]);
+        fr_add_known(&level->mean[p].force, &level->mean[p].forces, force[p]);
+        fr_add_known(&level->mean[p].height, &level->mean[p].heights, height[p]);
     }
     level->counted += (double)(count - level->first_count);
     level->filled++;
@@ -64,20 +50,6 @@ int fr_lv_add_sample(fr_level *level, lv_arrays *a, const fr_real *force, const 
         return 0;
     close_bin(level, a);
     return 1;
-}
-
-/* The distance of a bin; beyond the ends of the run the vehicle goes on as over the bins next to
- * them. */
-static double distance_at(const fr_level *level, const lv_arrays *a, int64_t bin)
-{
-    int64_t last = level->bins - 1, from = bin < 0 ? 0 : last;
-    int64_t inner = bin < 0 ? level->reach : last - level->reach;
-    double end;
-    if (bin >= 0 && bin <= last)
-        return a->distance[place_in(level, bin)];
-    end = a->distance[place_in(level, from)];
-    return end + (double)(bin - from) * (a->distance[place_in(level, inner)] - end) /
-                     (double)(inner - from);
 }
 
 /* The central difference of the distance, one-sided at the ends of the run. */
@@ -97,12 +69,8 @@ static double speed_at(const fr_level *level, const lv_arrays *a, int64_t bin)
 /* The acceleration of a smoothed distance; 0 in a run that is too short for it. */
 static double along_at(const fr_level *level, const lv_arrays *a, int64_t bin)
 {
-    double sum = 0.0;
-    if (level->bins < LV_LEAST_BINS)
-        return 0.0;
-    for (int64_t i = -level->reach; i <= level->reach; i++)
-        sum += a->bell[i < 0 ? -i : i] * distance_at(level, a, bin + i);
-    return sum;
+    fr_bell bell = {a->bell, a->distance, level->reach, level->ring, level->bins};
+    return level->bins < FR_LEAST_BINS ? 0.0 : fr_bell_along(&bell, bin);
 }
 
 /* Whether the mean speed of half a second has changed from the one before by enough. */
@@ -152,7 +120,7 @@ int fr_lv_derive_bin(fr_level *level, lv_arrays *a, int at_end, lv_bin *bin)
     int64_t number = level->derived;
     int64_t ahead = level->smooth + 2 > level->reach ? level->smooth + 2 : level->reach;
     if (number + (at_end != 0 ? 0 : ahead) >= level->bins ||
-        (at_end == 0 && level->bins < LV_LEAST_BINS))
+        (at_end == 0 && level->bins < FR_LEAST_BINS))
         return 0;
     *bin = found;
     bin->number = number;

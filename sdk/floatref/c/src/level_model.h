@@ -51,7 +51,6 @@
 #define LV_SHORTEST_S 2.0
 #define LV_SHORTEST_PIECE_S 0.5
 #define LV_UNKNOWN_M 0.05
-#define LV_LEAST_BINS 64
 
 /* Distance between places at which the 1-sigma is found. */
 #define LV_MARKS_M 8.0

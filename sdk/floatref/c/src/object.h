@@ -35,6 +35,9 @@ fr_status fr_place(void *memory, size_t size, const void *config, const void *ou
 /* Whether `object` starts with the head of a running object of this kind. */
 fr_status fr_ready(const void *object, uint32_t magic);
 
+/* The same of an object whose run may have ended: its results are still there. */
+fr_status fr_readable(const void *object, uint32_t magic);
+
 /* Whether `count` samples fit into `y`. */
 fr_status fr_room(size_t count, const void *y, size_t capacity, size_t *written);
 

@@ -87,14 +87,9 @@ static int stream_is_possible(const fr_road_prior_config *c)
            fr_one_of(c->back, FR_BACK_REFUSED, FR_BACK_TAKEN);
 }
 
-static int32_t at_least(double number, int32_t least)
-{
-    return number > (double)least ? (int32_t)number : least;
-}
-
 static int32_t sub_block_of(const fr_road_prior_config *config)
 {
-    return at_least(rint(config->rate_hz / config->node_rate_hz), 1);
+    return fr_whole_at_least(rint(config->rate_hz / config->node_rate_hz), 1);
 }
 
 static fr_lag_shape shape_of(const fr_road_prior_config *config)
@@ -107,12 +102,12 @@ static fr_lag_shape shape_of(const fr_road_prior_config *config)
     shape.noise_m = config->height_m;
     shape.tolerance_m = config->tolerance_m;
     shape.pace.delay = fr_excitation_reach(1.0 / nodes_hz);
-    shape.pace.nodes = at_least(ceil(0.5 * config->lag_s * nodes_hz), shape.pace.delay + 8);
+    shape.pace.nodes = fr_whole_at_least(0.5 * config->lag_s * nodes_hz, shape.pace.delay + 8);
     shape.pace.updates = shape.pace.nodes + FR_LAG_UPDATES;
     shape.pace.points =
-        at_least(ceil(0.5 * config->lag_s * config->fastest_mps / config->interval_m), 16);
+        fr_whole_at_least(0.5 * config->lag_s * config->fastest_mps / config->interval_m, 16);
     shape.pace.stops = STOPS < shape.pace.nodes ? STOPS : shape.pace.nodes;
-    shape.pace.patience = at_least(ceil(PATIENCE_S * nodes_hz), 4);
+    shape.pace.patience = fr_whole_at_least(PATIENCE_S * nodes_hz, 4);
     shape.node_s = 1.0 / nodes_hz;
     return shape;
 }
@@ -173,8 +168,8 @@ static void begin_road(fr_road_prior *road, const fr_road_prior_config *config)
     road->step = 1.0 / config->rate_hz;
     road->sub_block = sub_block_of(config);
     interval_s = road->step * road->sub_block;
-    road->segment = (int64_t)ldexp(1.0, at_least(rint(log2(SEGMENT_S * config->rate_hz)), 0));
-    road->per_second = at_least(rint(1.0 / interval_s), 1);
+    road->segment = (int64_t)ldexp(1.0, fr_whole_at_least(rint(log2(SEGMENT_S * config->rate_hz)), 0));
+    road->per_second = fr_whole_at_least(rint(1.0 / interval_s), 1);
     road->model = model_of(config);
     road->reading = road->model.reading;
     begin_states(config, &road->filter);

@@ -5,6 +5,8 @@
 #ifndef FR_SAMPLES_H
 #define FR_SAMPLES_H
 
+#include <math.h>
+
 #include "object.h"
 
 #define FR_R(number) ((fr_real)(number))
@@ -41,6 +43,15 @@ static inline int fr_above_zero(double x)
 static inline int fr_one_of(int32_t value, int32_t first, int32_t last)
 {
     return value >= first && value <= last;
+}
+
+/* The next whole number, from `least` up to what 32 bits hold eight times over. */
+static inline int32_t fr_whole_at_least(double number, int32_t least)
+{
+    double most = (double)(INT32_MAX / 8), whole = ceil(number);
+    if (!(whole > (double)least))
+        return least;
+    return whole < most ? (int32_t)whole : (int32_t)most;
 }
 
 /* Truth of a comparison in as many bits as fr_real, so that loops over both can be vectorized. */

@@ -75,6 +75,12 @@ fr_status fr_ready(const void *object, uint32_t magic)
     return head.state == FR_STATE_RUNNING ? FR_OK : FR_WRONG_ORDER;
 }
 
+fr_status fr_readable(const void *object, uint32_t magic)
+{
+    fr_status status = fr_ready(object, magic);
+    return status == FR_WRONG_ORDER ? FR_OK : status;
+}
+
 fr_status fr_room(size_t count, const void *y, size_t capacity, size_t *written)
 {
     if (written == NULL || (count > 0u && y == NULL))

@@ -10,6 +10,7 @@ from floatref.engine.formats import is_profile, profile_of
 from floatref.engine.recordings.readers import find_readers
 from floatref.errors import InputError
 from floatref.files.atomic import check_target
+from floatref.files.sources import real_path
 from floatref.interfaces.adapter import RecordingDirectory
 from floatref.values.parts.shown_units import SYSTEMS
 from floatref.values.profile import Profile
@@ -83,7 +84,7 @@ def refuse_channels(channels: Sequence[str]) -> None:
 
 def short_names(paths: Sequence[Path]) -> list[str]:
     """Return a name for every path: its last part, or as many parts as make all of them differ."""
-    parts = [path.resolve().parts for path in paths]
+    parts = [real_path(path).parts for path in paths]
     for number, path in enumerate(paths):
         if parts[number] in parts[:number]:
             raise InputError(f"{path}: given twice; give each profile once")
@@ -97,5 +98,5 @@ def check_out(out: Path, sources: Sequence[Path], overwrite: bool) -> None:
     """Raise InputError for a target that exists, cannot be written, or lies in a source."""
     check_target(out, overwrite)
     for source in sources:
-        if out.resolve() == source.resolve() or source.resolve() in out.resolve().parents:
+        if real_path(out) == real_path(source) or real_path(source) in real_path(out).parents:
             raise InputError(f"{out}: is, or is inside, a source; choose another place")

@@ -16,6 +16,7 @@ from floatref.cli.look.look_sources import (
 )
 from floatref.cli.recordings.recording_options import RecordingReader, beside
 from floatref.errors import InputError
+from floatref.files.sources import real_path
 from floatref.values.parts.windows import Window
 from floatref.viewer.page_file import PageOptions
 
@@ -97,7 +98,7 @@ def _view_recording(
     from floatref.viewer import write_recording_page
 
     found = reading.recording_at(source)
-    return write_recording_page(out, source.resolve().name, found, options, channels)
+    return write_recording_page(out, real_path(source).name, found, options, channels)
 
 
 def _view_profiles(

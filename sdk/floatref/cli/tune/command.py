@@ -14,6 +14,7 @@ from floatref.errors import InputError
 from floatref.files.atomic import check_target, replace_file
 from floatref.files.document import write_document
 from floatref.files.settings_file import read_settings
+from floatref.files.sources import real_path
 from floatref.mapping.sources import recording_of
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording
@@ -100,7 +101,7 @@ def _check_targets(out: Path, plot: Path | None, overwrite: bool) -> None:
         raise InputError(f"{out}: is a folder; give the name of a file to write")
     if plot is None:
         return
-    if plot.resolve() == out.resolve():
+    if real_path(plot) == real_path(out):
         raise InputError(f"{plot}: is the settings' own name; choose another for the drawing")
     from floatref.plots import check_drawing
 
@@ -110,9 +111,9 @@ def _check_targets(out: Path, plot: Path | None, overwrite: bool) -> None:
 
 def _read(sources: tuple[Path, ...], adapter: str | None) -> dict[str, Recording]:
     """Return the recordings by the shortest names that are distinct."""
-    short = [source.resolve().name for source in sources]
+    short = [real_path(source).name for source in sources]
     names = short if len(set(short)) == len(short) else [str(source) for source in sources]
-    places = [source.resolve() for source in sources]
+    places = [real_path(source) for source in sources]
     for source, place in zip(sources, places, strict=True):
         if places.count(place) > 1:
             raise InputError(f"{source}: given twice; give every run once")

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from os.path import exists
+from os.path import exists, islink
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -11,6 +11,7 @@ from floatref.engine.plugins import plugins
 from floatref.engine.recordings.plug_in_files import failure
 from floatref.engine.recordings.recognising_profiles import has_profile_form
 from floatref.errors import FloatrefError, InputError, PluginError
+from floatref.files.sources import check_source
 from floatref.interfaces.adapter import (
     Adapter,
     NativeAdapter,
@@ -31,8 +32,9 @@ def reader_of(source: Path, name: str | None) -> Adapter:
     """
     if name is not None:
         return get_reader(name)
-    if not exists(source):
+    if not exists(source) and not islink(source):
         raise InputError(f"{source}: not found")
+    check_source(source)
     found = find_readers(source)
     if not found:
         raise InputError(f"{source}: {_why_no_reader(source)}")
@@ -72,6 +74,7 @@ def is_native(reader: Adapter) -> bool:
 
 def read_source(reader: Adapter, source: Path) -> Recording:
     """Return the recording; PluginError for any error of the adapter other than InputError."""
+    check_source(source)
     with guard(reader.name, source):
         found = cast(RecordingAdapter, reader).read(source)
     return _check(found, reader, source, Recording, "recording")
@@ -79,8 +82,9 @@ def read_source(reader: Adapter, source: Path) -> Recording:
 
 def native_of(reader: Adapter, source: Path, options: Mapping[str, str]) -> NativeFile:
     """Return the content of ``source``; InputError if ``reader`` does not list files."""
-    if not exists(source):
+    if not exists(source) and not islink(source):
         raise InputError(f"{source}: not found")
+    check_source(source)
     if not is_native(reader) or RecordingDirectory().recognises(source):
         name = RecordingDirectory.name if is_native(reader) else reader.name
         raise InputError(f"{source}: adapter {name} has our channels; it needs no map")

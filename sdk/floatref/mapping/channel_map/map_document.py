@@ -9,7 +9,7 @@ from floatref.errors import InputError
 from floatref.files.document import show
 from floatref.files.recording_directory import setup_of
 from floatref.files.schema import enforce
-from floatref.files.sources import name_errors, open_bytes
+from floatref.files.sources import name_errors, open_bytes, real_path
 from floatref.files.toml_document import read_toml
 from floatref.mapping.channel_map.clock_entries import clocks_of
 from floatref.mapping.channel_map.entries import SOURCE, ChannelEntry, ChannelMap, FileEntry
@@ -129,8 +129,8 @@ def _resolve_inside(name: str, place: Path) -> Path:
     if "\\" in name or re.match(r"/|[A-Za-z]:", name):
         raise InputError(f"{prefix}: give it relative to the map's folder, with / in between")
     try:
-        folder = place.resolve().parent
-        target = (folder / name).resolve()
+        folder = real_path(place).parent
+        target = real_path(folder / name)
         target.is_file()
     except (OSError, ValueError, RuntimeError) as error:
         raise InputError(f"{prefix}: no possible file name; correct it") from error

@@ -60,7 +60,10 @@ def slope_of(
     if np.count_nonzero(usable) < 2 or interval_m >= 2.0:
         return None
     cut = slice(int(usable.argmax()), usable.size - int(usable[::-1].argmax()))
-    z, factor = _within_reach(bridge(track.elevation[cut], ~usable[cut]))
+    z = bridge(track.elevation[cut], ~usable[cut])
+    # Bridged, it is a copy, and what was read of the file would stay beside it.
+    release(track.elevation)
+    z, factor = _within_reach(z, z if z.flags.owndata else np.empty(z.size))
     release(track.elevation)
     try:
         slope = waveband_slope(z, interval_m, "medium")
@@ -81,9 +84,12 @@ def usable_points(track: ProfileTrack, interval_m: float) -> BoolArray:
     return np.isfinite(track.elevation)
 
 
-def _within_reach(z: FloatArray) -> tuple[FloatArray, float]:
-    """Return ``z`` about its mean and less by a factor, so that no filter refuses it."""
-    rise = z - z.mean()
+def _within_reach(z: FloatArray, rise: FloatArray) -> tuple[FloatArray, float]:
+    """Return ``z`` about its mean and less by a factor, so that no filter refuses it, in ``rise``.
+
+    ``rise`` may be ``z``.
+    """
+    np.subtract(z, z.mean(), out=rise)
     factor = max(float(rise.max()) / HIGHEST, -float(rise.min()) / HIGHEST, 1.0)
     rise /= factor
     return rise, factor

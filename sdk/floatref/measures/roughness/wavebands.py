@@ -142,6 +142,7 @@ class PathSignals(NamedTuple):
         for track in (expected[name], found[name]):
             both &= track.valid if of_valid else np.isfinite(track.elevation)
             release(track.elevation)
+        release(other[name].elevation)
         del expected, found, other, track
         common = common_stretch(both)
         missing = ~both[common] if of_valid else None
@@ -149,7 +150,10 @@ class PathSignals(NamedTuple):
         q = bridge(q[common], missing)
         q_band = band_signal(q, interval_m, band)
         del q
-        return cls(band_signal(bridge(p[common], missing), interval_m, band), q_band, interval_m)
+        bridged = bridge(p[common], missing)
+        # Bridged, it is a copy, and what was read of the file would stay beside it.
+        release(p)
+        return cls(band_signal(bridged, interval_m, band), q_band, interval_m)
 
 
 def path_agreement(

@@ -43,6 +43,8 @@ REFUSED = {
     "a,b\n1.5,2\n3,4,5\n": "row 3 has 3 fields, the header 2; write decimal points",
     b"a,b\n1,\xff\n2,3\n4,5\n": "row 2: b is 'ÿ'; write a number",
     b"a,b\n\0\0\0\0\n": "not a text file",
+    f"time_s,x\n0,1\n0.{'3' * 310},2\n": "a time with 310 digits on one side of its decimal mark",
+    f"time_s,x\n0,1\n{'3' * 310},2\n": "a time with 310 digits on one side of its decimal mark",
 }
 
 

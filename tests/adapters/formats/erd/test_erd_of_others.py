@@ -258,3 +258,9 @@ def test_damage_anywhere_is_a_profile_or_one_clear_line(tmp_path_factory, place,
     except InputError as error:
         refusals.append(str(error))
     assert all(line.isprintable() for line in refusals)
+
+
+@pytest.mark.parametrize("value", ["3e9", "-3e9", "1e30"])
+def test_an_elevation_that_no_road_has_is_refused(tmp_path, value):
+    with pytest.raises(InputError, match=r"a\.erd: track left: an elevation of .* m; a road has"):
+        read(tmp_path, erd("1 2", f"{value} 4", "5 6"))

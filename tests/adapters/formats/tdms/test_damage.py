@@ -62,7 +62,7 @@ def test_what_is_no_tdms_is_refused_in_one_line(tmp_path: Path) -> None:
         assert Tdms().recognises(path) == (start[:4] == b"TDSm")
         refused(path)
     assert not Tdms().recognises(tmp_path / "none.tdms")
-    assert "make it readable" in refused(tmp_path / "none.tdms")
+    assert "check the name" in refused(tmp_path / "none.tdms")
 
 
 def test_without_nptdms_one_line_says_what_to_install(
@@ -72,3 +72,13 @@ def test_without_nptdms_one_line_says_what_to_install(
     path.write_bytes(segment(META | NEW | RAW, doubles(1, 2), bytes(16)))
     monkeypatch.setitem(sys.modules, "nptdms", None)
     assert 'needs nptdms; run in a clone of floatref: pip install -e ".[adapters]"' in refused(path)
+
+
+@pytest.mark.parametrize("left", [28, 29, 40, 60])
+def test_a_file_cut_within_its_first_metadata_is_refused(tmp_path: Path, left: int) -> None:
+    path = tmp_path / "a.tdms"
+    wave = scale_waveform("Linear")
+    raw = lay_out(np.arange(18.0).reshape(3, 6), 3, False)
+    sound = segment(META | NEW | RAW, doubles(3, 3, wave), raw)
+    path.write_bytes(sound[:left])
+    assert "cut off before the first value" in refused(path)

@@ -5,12 +5,13 @@ from math import ceil
 import numpy as np
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
+from tests.sdk.estimators.road_prior.literal_constants import literal_constants
 
 from floatref.estimators.road_prior import RoadPrior
 from floatref_reference.road_prior.encoder import inputs
 from floatref_reference.road_prior.fixed_lag import fixed_lag
 from floatref_reference.road_prior.lag_sections import Sections, divide
-from floatref_reference.road_prior.symbols import Constants, recorded
+from floatref_reference.road_prior.symbols import recorded
 
 INTERVAL_M = 0.5
 SETTINGS = {
@@ -34,17 +35,7 @@ def literally(drive, sections):
     """Return the height by the reference, shape (n,)."""
     c = RoadPrior(**{IN_SDK.get(name, name): x for name, x in SETTINGS.items()})
     u_1, u_2 = inputs(drive.distance, 1 / drive.rate)
-    constants = Constants(
-        c.acceleration,
-        c.acceleration_walk,
-        c.walk_along,
-        c.reading_m,
-        c.road,
-        c.long_waves,
-        c.road_reach_m,
-        sigma_b=c.acceleration_bias,
-        sigma_kappa=(c.lean_sigma_rad, c.tilt_sigma),
-    )
+    constants = literal_constants(c, (c.lean_sigma_rad, c.tilt_sigma))
     times, h = np.arange(drive.a.size) / drive.rate, drive.h - drive.h[0]
     run = recorded(times, drive.distance, drive.a, h, np.stack((u_1, u_2), axis=-1), u_1)
     return fixed_lag(run, constants, sections) + drive.h[0]

@@ -6,11 +6,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from tests.sdk.estimators.road_prior.literal_constants import literal_constants
 
 from floatref.estimators.road_prior.excitation import Excitation
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
-from floatref_reference.road_prior.symbols import Constants, recorded
+from floatref_reference.road_prior.symbols import recorded
 
 UP, RANGE = ChannelId("vertical_acceleration", "left"), ChannelId("height", "left")
 DISTANCE = ChannelId("distance")
@@ -48,20 +49,9 @@ class Drive:
 
         ``inputs`` are those that the coefficients with ``priors`` multiply.
         """
-        constants = Constants(
-            c.acceleration,
-            c.acceleration_walk,
-            c.walk_along,
-            c.reading_m,
-            c.road,
-            c.long_waves,
-            c.road_reach_m,
-            sigma_b=c.acceleration_bias,
-            sigma_kappa=priors,
-        )
         times = np.arange(self.a.size) / self.rate
         signals = self.a, self.h - self.h[0], np.stack(inputs, axis=-1), a_x
-        return recorded(times, self.distance, *signals), constants
+        return recorded(times, self.distance, *signals), literal_constants(c, priors)
 
     def followed_by(self, other):
         place = 2 * self.distance[-1] - self.distance[-2] + other.distance
