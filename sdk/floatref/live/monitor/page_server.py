@@ -87,6 +87,7 @@ class _Source:
 
 class _Server(ThreadingHTTPServer):
     daemon_threads = True
+    request_queue_size = 4 * CONNECTIONS
     # On Windows it would take a port that another program has.
     allow_reuse_address = os.name == "posix"
 

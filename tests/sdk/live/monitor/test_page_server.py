@@ -117,6 +117,7 @@ def test_browsers_that_send_nothing_keep_nobody_out(served):
         each.close()
 
 
+@pytest.mark.slow
 def test_a_flood_of_connections_is_closed_and_then_the_page_answers(served):
     port, _ = served
     idle = [socket.create_connection(("127.0.0.1", port), WAIT_S) for _ in range(3 * CONNECTIONS)]
