@@ -3,6 +3,8 @@
 An error that the user can correct on the command line is a `floatref.errors.InputError`.
 """
 
+from floatref.errors import InputError
+
 
 class DeviceError(Exception):
     """The device crashed or delivered something unusable; the text is one line."""
@@ -18,6 +20,10 @@ class DeviceRefused(DeviceError):
 
 class DeviceSkipped(Exception):
     """The device does not process this recording; the text is its reason, in one line."""
+
+
+class NoRoom(InputError):
+    """The disk has no room for what a run writes; the text is one line, and there is no verdict."""
 
 
 class SuiteError(Exception):

@@ -108,7 +108,9 @@ def collect(plugins: Mapping[str, Callable[[], object]]) -> Registry:
         try:
             new_kinds, new_checks = _call_hooks(name, load())
             _refuse_taken(owners, (*new_kinds, *new_checks))
-        except (Exception, SystemExit) as error:
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:
             text = " ".join(str(error).split())
             broken.append(f"plug-in {name}: {type(error).__name__}: {text}; it is left out")
             continue

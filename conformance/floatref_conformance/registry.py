@@ -32,9 +32,9 @@ class Registry:
             raise InputError(f"device {spec}: not a kind that works here; {self._meant(spec)}")
         try:
             return self.kinds[prefix].make(argument)
-        except FloatrefError:
+        except (FloatrefError, KeyboardInterrupt):
             raise
-        except (Exception, SystemExit) as error:
+        except BaseException as error:
             raise InputError(f"device {spec}: {type(error).__name__}: {error}") from error
 
     def check(self, id_: str) -> Check:

@@ -7,16 +7,25 @@ would print a traceback of its own, or die while others wait for it.
 import signal
 import tempfile
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import active_children, get_context, resource_tracker
-from tempfile import TemporaryDirectory
+from multiprocessing.process import BaseProcess
 from threading import current_thread, main_thread
+from time import monotonic
 from types import FrameType
 from typing import Any, TypeVar
 
+from floatref.files.scratch import scratch_folder
+from floatref_conformance.errors import SuiteError
+from floatref_conformance.parent_death import end_with_parent
+
 Result = TypeVar("Result")
+GRACE_S = 10.0
+"""Longest time in s until a process has ended that was asked to; then it is killed."""
+LONGEST_S = 24 * 3600.0
+"""Longest time in s of one task; one that takes longer hangs."""
 
 
 class WorkerPool(ProcessPoolExecutor):
@@ -35,16 +44,36 @@ def worker_pool(processes: int) -> Iterator[WorkerPool]:
     A fork would share the threads of this process.
     """
     others = set(active_children())
-    with TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
-        pool = WorkerPool(processes, get_context("spawn"), _prepare_worker, (scratch,))
+    with scratch_folder("workers") as scratch:
+        pool = WorkerPool(processes, get_context("spawn"), _prepare_worker, (str(scratch),))
         try:
             yield pool
         except BaseException:
-            for worker in set(active_children()) - others:
-                worker.terminate()
+            _end(set(active_children()) - others)
             raise
         finally:
             pool.shutdown(cancel_futures=True)
+
+
+def _end(workers: Collection[BaseProcess]) -> None:
+    """End ``workers``, and kill those that do not end within `GRACE_S`."""
+    for worker in workers:
+        worker.terminate()
+    end_s = monotonic() + GRACE_S
+    for worker in workers:
+        worker.join(max(0.0, end_s - monotonic()))
+        if worker.is_alive():
+            worker.kill()
+
+
+def wait_for(future: "Future[Result]", what: str) -> Result:
+    """Return the result of ``future``; SuiteError if ``what`` is not done within `LONGEST_S`."""
+    try:
+        return future.result(LONGEST_S)
+    except TimeoutError as error:
+        if future.done():
+            raise
+        raise SuiteError(f"{what}: not done after {LONGEST_S / 3600:g} h") from error
 
 
 @contextmanager
@@ -70,13 +99,14 @@ def _in_order(coming: deque[Future[Result]]) -> Iterator[Result]:
     traceback.
     """
     while coming:
-        yield coming.popleft().result()
+        yield wait_for(coming.popleft(), "a worker's task")
 
 
 def _prepare_worker(scratch: str) -> None:
     """Write temporary files into ``scratch``; the first process alone decides on Ctrl-C."""
     tempfile.tempdir = scratch
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_parent()
 
 
 @contextmanager

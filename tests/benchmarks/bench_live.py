@@ -1,11 +1,13 @@
-"""Measure a live stream at 16 kHz: how long a push takes, how fast it is, and what it holds.
+"""Measure a live stream of two wheel paths at 16 kHz: its rate, what it holds, and its pushes.
 
-A simulated loop of ten minutes is made continuous: it comes again and again, with the distance and
-the time going on. Two wheel paths are pushed in pieces of 10 ms. `--paced` pushes at real time, as
-a vehicle does, and prints the times of the pushes; without it the stream is pushed as fast as it
-takes the samples, which gives the multiple of real time and the memory. Run as
+A simulated loop of ten minutes is driven again and again, see `live_loop`; pieces of 10 ms are
+pushed. `--hours` pushes as fast as the stream takes the samples, and prints the multiple of real
+time, by the clock and by the processor, and memory, threads, open files and gaps every quarter of
+an hour. `--paced` pushes at real time, as a vehicle does, and prints how long the pushes took.
+Run as
 
-    python tests/benchmarks/bench_live.py [--pipeline NAME] [--seconds S] [--paced] [--provisional]
+    python tests/benchmarks/bench_live.py --pipeline NAME --hours H [--push-ms MS]
+    python tests/benchmarks/bench_live.py --pipeline NAME --paced --minutes M [--freeze]
 
 `--apart` prints in place of that how far `process(as_live=True)` is from the whole run, for every
 pipeline, on drives with stops.
@@ -17,13 +19,12 @@ import os
 import resource
 import threading
 import time
-import warnings
-from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from kind_drives import KIND
+from live_loop import PUSH_S, Loop, loop_for
 
 import floatref
 from floatref.engine.axis_place import Place
@@ -34,39 +35,30 @@ from floatref.measures import iri
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
-RATE_HZ, PUSH_S, LOOP_S = 16_000, 0.01, 600.0
 QUARTER_S = 900.0
-LOOP = Scenario(manoeuvre="stop", stops=6, event_at_m=1200.0, stop_spacing_m=1500.0, dwell_s=5.0,
-                final_speed_kmh=72.0, length_m=12_000.0, response=False, **KIND)  # fmt: skip
 FAMILIES = {
     "no stop": {"manoeuvre": "constant"},
     "a stop of 5 s in each km": {"manoeuvre": "stop", "stops": 6, "stop_spacing_m": 1000.0},
     "a brake to 11 km/h": {"manoeuvre": "braking", "event_at_m": 3000.0},
 }
-CHANNELS = ("vertical_specific_force", "height", "distance")
 
 
-def loop_of() -> floatref.Recording:
-    """Return the loop with the nominal channels, cut to whole pieces of `PUSH_S`."""
-    made = simulate(LOOP).recording
-    return replace(made, channels=tuple(c for c in made.channels if c.id.name in CHANNELS))
+@dataclass
+class Seen:
+    """What came out of a stream so far."""
 
+    next: int | None = None
+    final: int = 0
+    gaps: int = 0
+    missing: int = 0
+    lines: set[str] = field(default_factory=set)
 
-def pushes(recording: floatref.Recording, seconds: float) -> Iterator[dict]:
-    """Yield pieces of `PUSH_S`, the loop again and again; the distance goes on."""
-    piece = round(PUSH_S * RATE_HZ)
-    nominal = recording.channels
-    count = min(c.values.size for c in nominal) // piece
-    distance = recording.channel("distance").values
-    step = float(np.nanmean(np.diff(distance[-1000:])))
-    length = float(np.nanmax(distance[: count * piece])) - float(distance[0]) + step
-    for number in range(round(seconds / PUSH_S)):
-        lap, at = divmod(number, count)
-        part = slice(at * piece, (at + 1) * piece)
-        yield {
-            c.id: c.values[part] + (lap * length if c.id.name == "distance" else 0.0)
-            for c in nominal
-        }
+    def add(self, points: list) -> None:
+        for each in (p for p in points if p.state is State.FINAL):
+            self.gaps += self.next is not None and each.first != self.next
+            self.next, self.final = each.first + len(each), self.final + len(each)
+            self.missing += sum(int(np.isnan(t.elevation).sum()) for t in each.tracks)
+            self.lines.update(line for line in each.events if "no elevation" in line)
 
 
 def resident_mb() -> float:
@@ -75,46 +67,81 @@ def resident_mb() -> float:
     return pages * resource.getpagesize() / 1e6
 
 
-def state_of(stream: floatref.LiveStream) -> str:
+def state_of(loop: Loop, seen: Seen) -> str:
     files = len(os.listdir("/proc/self/fd"))
-    return f"{resident_mb():6.0f} MB, {files} open files, {threading.active_count()} threads"
+    held = resident_mb()
+    return (f"{held:6.0f} MB, {held - loop.megabytes:5.0f} without the loop, {files} open files, "
+            f"{threading.active_count()} threads, {seen.final} final points, {seen.gaps} gaps, "
+            f"{seen.missing} without elevation")  # fmt: skip
+
+
+def start(given: argparse.Namespace, loop: Loop) -> floatref.LiveStream:
+    """Start the stream, twice: the first time compiles, or loads, the kernels."""
+    setup = loop.recording.setup
+    begin = time.perf_counter()
+    floatref.start_stream(setup, loop.clocks, given.pipeline).close()
+    compiled = time.perf_counter()
+    stream = floatref.start_stream(
+        setup, loop.clocks, given.pipeline, provisional=not given.no_provisional
+    )
+    stream.push(next(loop.pushes(PUSH_S)))
+    ready = time.perf_counter()
+    stream.close()
+    print(f"{given.pipeline}: first start in a process {compiled - begin:.2f} s, then start and "
+          f"first push {ready - compiled:.4f} s")  # fmt: skip
+    stream = floatref.start_stream(
+        setup, loop.clocks, given.pipeline, provisional=not given.no_provisional
+    )
+    gc.collect()
+    if given.freeze:
+        gc.freeze()
+    return stream
 
 
 def drive(given: argparse.Namespace) -> None:
-    recording = loop_of()
-    clocks = {c.id: float(RATE_HZ) for c in recording.channels}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        floatref.process(recording, given.pipeline)  # Compiles.
-    taken, points, said = [], 0, QUARTER_S
-    begin, own = time.perf_counter(), time.process_time()
-    stream = floatref.start_stream(
-        recording.setup, clocks, given.pipeline, provisional=given.provisional
-    )
-    print(f"first push after {time.perf_counter() - begin:.3f} s; {stream.latency}")
-    gc.collect()
-    for number, piece in enumerate(pushes(recording, given.seconds)):
-        if given.paced:
-            time.sleep(max(0.0, begin + number * PUSH_S - time.perf_counter()))
+    """Push as fast as the stream takes it."""
+    loop = loop_for(given.pipeline)
+    stream, seen, push_s = start(given, loop), Seen(), 1e-3 * given.push_ms
+    seconds, said = 3600.0 * given.hours, QUARTER_S
+    clocks = time.perf_counter, time.process_time, time.thread_time
+    begin = [clock() for clock in clocks]
+    for number, piece in enumerate(loop.pushes(seconds, push_s)):
+        stream.push(piece)
+        if number * push_s >= said:
+            seen.add(stream.ready())
+            print(f"  {number * push_s:7.0f} s: {state_of(loop, seen)}", flush=True)
+            said += QUARTER_S
+        elif number % 100 == 0:
+            seen.add(stream.ready())
+    seen.add(stream.finish())
+    wall, own, caller = (clock() - at for clock, at in zip(clocks, begin, strict=True))
+    print(f"  {seconds:7.0f} s: {state_of(loop, seen)}")
+    for line in sorted(seen.lines):
+        print(f"  {line}")
+    print(f"{given.pipeline}, pushes of {given.push_ms:g} ms: {seconds / wall:.0f} x real time by "
+          f"the clock, {seconds / own:.0f} x in processor time, {seconds / (own - caller):.0f} x "
+          f"the thread's alone")  # fmt: skip
+
+
+def pace(given: argparse.Namespace) -> None:
+    """Push at real time, and print how long the pushes took."""
+    loop = loop_for(given.pipeline)
+    stream, seen, taken = start(given, loop), Seen(), []
+    begin = time.perf_counter()
+    for number, piece in enumerate(loop.pushes(60.0 * given.minutes)):
+        time.sleep(max(0.0, begin + number * PUSH_S - time.perf_counter()))
         before = time.perf_counter()
         stream.push(piece)
         taken.append(time.perf_counter() - before)
-        points += sum(len(p) for p in stream.ready() if p.state is State.FINAL)
-        if number * PUSH_S >= said:
-            print(f"  {number * PUSH_S:7.0f} s: {state_of(stream)}, {points} final", flush=True)
-            said += QUARTER_S
-    points += sum(len(p) for p in stream.finish() if p.state is State.FINAL)
-    report(given, np.array(taken), time.perf_counter() - begin, time.process_time() - own, points)
-
-
-def report(
-    given: argparse.Namespace, taken: np.ndarray, wall_s: float, own_s: float, points: int
-) -> None:
-    print(f"{given.pipeline}, {given.seconds:.0f} s, {points} final points of a wheel path")
-    p50, p999 = np.quantile(taken, [0.5, 0.999])
-    print(f"  push of 10 ms: median {1e3 * p50:.3f} ms, p99.9 {1e3 * p999:.2f} ms, "
-          f"largest {1e3 * taken.max():.1f} ms")  # fmt: skip
-    print(f"  {given.seconds / wall_s:.0f} x real time, {given.seconds / own_s:.0f} x on one core")
+        if number % 50 == 25:
+            seen.add(stream.ready())
+    seen.add(stream.finish())
+    print(f"{given.pipeline}, {given.minutes:g} minutes at real time: {state_of(loop, seen)}")
+    ms = 1e3 * np.array(taken)
+    p50, p99, p999 = np.quantile(ms, [0.5, 0.99, 0.999])
+    print(f"  push of 10 ms: median {p50:.3f} ms, p99 {p99:.2f} ms, p99.9 {p999:.2f} ms, largest "
+          f"{ms.max():.1f} ms, first {ms[0]:.3f} ms; above 50 ms: {(ms > 50.0).sum()} of "
+          f"{ms.size}")  # fmt: skip
 
 
 def apart(given: argparse.Namespace) -> None:
@@ -147,12 +174,15 @@ def main() -> None:
     """Measure one pipeline, or compare all."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--pipeline", default="road-prior-smoother")
-    parser.add_argument("--seconds", type=float, default=600.0)
+    parser.add_argument("--hours", type=float, default=0.25)
+    parser.add_argument("--push-ms", type=float, default=1e3 * PUSH_S)
     parser.add_argument("--paced", action="store_true")
-    parser.add_argument("--provisional", action="store_true")
+    parser.add_argument("--minutes", type=float, default=60.0)
+    parser.add_argument("--freeze", action="store_true", help="gc.freeze() behind the start")
+    parser.add_argument("--no-provisional", action="store_true")
     parser.add_argument("--apart", action="store_true")
     given = parser.parse_args()
-    apart(given) if given.apart else drive(given)
+    apart(given) if given.apart else pace(given) if given.paced else drive(given)
 
 
 if __name__ == "__main__":

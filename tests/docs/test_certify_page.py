@@ -41,6 +41,8 @@ def test_limits_are_those_of_the_classes() -> None:
         "distance": "distance_percent",
         "distance-readings": "distance_percent",
         "height-scale": "height_percent",
+        "height-scale-mean": "height_percent",
+        "long-waves": "long_wave_percent",
         "quiescent": "quiescent_m_per_km",
         "bounce": "bounce_m_per_km",
     }

@@ -15,7 +15,7 @@ ALLOWED = {
     "sdk/floatref/plots": {"matplotlib"},
     # Names of types alone, for type checkers.
     "sdk/floatref/values": {"matplotlib", "pandas", "xarray"},
-    "sdk/floatref/batch": {"dask", "distributed", "pyarrow"},
+    "sdk/floatref/batch": {"cryptography", "dask", "distributed", "pyarrow"},
     "sdk/floatref/live/session": {"pyarrow"},
     "sdk/floatref/files/gis": {"pyogrio", "shapely"},
     "adapters": {"numpy"},

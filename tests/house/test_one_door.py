@@ -44,6 +44,7 @@ ALLOWED = {
     "sdk/floatref/files/schema.py:read_text": "a file of the package",
     "sdk/floatref/c/amalgamation.py:read_text": "files of the package",
     "sdk/floatref/viewer/page_writer.py:read_text": "files of the package",
+    "sdk/floatref/live/monitor/page_server.py:read_text": "files of the package",
     "sdk/floatref/cli/lazy.py:open": "a descriptor of a standard stream",
     "sdk/floatref/files/growing_profile.py:open": "a descriptor that is opened to append",
     "sdk/floatref/live/saved_state.py:load": "an opened stream",
@@ -67,6 +68,8 @@ ALLOWED = {
     "conformance/floatref_conformance/proving_ground/cache.py:read_bytes": "files of the package",
     "conformance/floatref_conformance/proving_ground/drives/runs.py:read_text": "of the package",
     "conformance/floatref_conformance/table/published.py:read_text": "a file of the package",
+    "sdk/floatref/files/owners.py:read_text": "what the system tells in /proc",
+    "sdk/floatref/files/owners.py:read_bytes": "what the system tells in /proc",
     "conformance/floatref_conformance/samples/network.py:read_bytes": "what it has just written",
 }
 """Where another opening is right, and why."""

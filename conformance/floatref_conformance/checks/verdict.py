@@ -201,8 +201,9 @@ class RunResult:
     ``replayed`` has for every case stored by an earlier run: ``file``, ``check``,
     ``outcome``, ``reason``, and ``value``, ``limit`` and ``unit`` of its worst measurement.
     ``timeout_s``, the time for a recording, and ``report``, the folder of the report, are as the
-    user gave them; None if not given. ``edition`` is the name of the checks' edition. ``streams``
-    has the checks of streams, empty for a device that does not stream.
+    user gave them; None if not given. ``edition`` is the name of the checks' edition, and
+    ``variables`` are those of the environment that the device got on request. ``streams`` has the
+    checks of streams, empty for a device that does not stream.
     """
 
     device: Mapping[str, Any]
@@ -215,6 +216,7 @@ class RunResult:
     report: Path | None = None
     edition: str = EDITION
     streams: tuple[CheckResult, ...] = ()
+    variables: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> Verdict:

@@ -1,15 +1,11 @@
 """Following a run: the terminal sees it all, the reports are written at its end."""
 
-import signal
-import threading
 import traceback
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import NoReturn
 
 import click
 
-from floatref.cli.program.interrupts import raise_interrupt
 from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.cli.no_verdict import FAULT_OF_THE_SUITE, drop_output, in_one_line
 from floatref_conformance.errors import SuiteError
@@ -41,8 +37,7 @@ def follow(
             _tell(event, writers)
 
     try:
-        with end_like_an_interrupt():
-            result = run_in_processes(plan, emit, processes)
+        result = run_in_processes(plan, emit, processes)
     except SuiteError as fault:
         terminal.close()
         _end_at_fault(fault)
@@ -51,19 +46,6 @@ def follow(
     for event in finished:
         _tell(event, writers)
     return result
-
-
-@contextmanager
-def end_like_an_interrupt() -> Iterator[None]:
-    """Let SIGTERM end the run as Ctrl-C does, so that the device is ended with it."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGTERM, raise_interrupt)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 def _tell(event: Event, writers: Sequence[Renderer]) -> None:

@@ -11,7 +11,7 @@ from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase, read_case
 from floatref_conformance.checks.verdict import CaseResult, Measurement, Verdict
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.cli.options import class_of, limit_time
+from floatref_conformance.cli.options import class_of, env_option, limit_time, pass_variables
 from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.replaying import replay as replayed
@@ -34,6 +34,7 @@ from floatref_conformance.render.terminal import PLAIN_WIDTH, PipedConsole
     type=click.FloatRange(min=0, min_open=True),
     help="Time for the recording.  [default: 60 s and twice its length]",
 )
+@env_option
 @click.pass_context
 def replay(
     context: click.Context,
@@ -41,6 +42,7 @@ def replay(
     spec: str,
     device_class: str | None,
     device_timeout: float | None,
+    variables: tuple[str, ...],
 ) -> None:
     """Run the case that CASE keeps, a file of a report's `cases` folder.
 
@@ -55,6 +57,7 @@ def replay(
     device = registry.device(spec)
     with close_on_error(device):
         limit_time(device, device_timeout)
+        pass_variables(device, variables)
         decisive = kept.device_class if device_class is None else class_of(device, device_class)
     try:
         result = replayed(device, check, kept.case, find_edition(kept.edition))

@@ -9,7 +9,14 @@ from floatref_conformance.case_files import read_cases
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.cli.following import follow
-from floatref_conformance.cli.options import class_of, limit_time, reports_into
+from floatref_conformance.cli.options import (
+    class_of,
+    env_option,
+    limit_time,
+    pass_variables,
+    reports_into,
+    tell_where_truth_is,
+)
 from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.in_processes import refuse_processes
@@ -83,6 +90,7 @@ RECOMMENDED = "builtin:road-prior-smoother"
     help="Print one JSON object, that of report.json; all else goes to stderr.",
 )
 @edition_option
+@env_option
 @click.pass_context
 def run(
     context: click.Context,
@@ -93,6 +101,7 @@ def run(
     seed: int,
     waive: Path | None,
     device_timeout: float | None,
+    variables: tuple[str, ...],
     report: Path | None,
     jobs: int,
     verbose: bool,
@@ -116,6 +125,8 @@ def run(
     with ExitStack() as folders:
         with close_on_error(device):
             limit_time(device, device_timeout)
+            pass_variables(device, variables)
+            tell_where_truth_is(device)
             plan = Plan(
                 spec,
                 device,
@@ -129,6 +140,7 @@ def run(
                 ahead=True,
                 waivers=waivers,
                 timeout_s=device_timeout,
+                variables=variables,
                 report=report,
                 edition=find_edition(edition),
                 streams=StreamPlan.of(ids),

@@ -7,6 +7,7 @@ process group is killed, which a process can leave.
 
 import ctypes
 import os
+import re
 import secrets
 import signal
 import subprocess
@@ -15,13 +16,17 @@ import time
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from threading import Lock
 
-from floatref_conformance.proving_ground.cache import FOLDER_VARIABLE
+from floatref.files.owners import is_abandoned, owner_mark
+from floatref_conformance.devices.environment import environment_of
 
 MARK = "FLOATREF_DEVICE"
 """Environment variable that identifies the device to which a process belongs."""
+MARKED = re.compile(MARK.encode() + rb"=(?P<owner>[0-9a-f]{8}-[0-9]+-[0-9]+)-[0-9a-f]+")
+"""That variable, with the mark of the judge that started the device."""
 PATIENCE_S = 10.0
 """Time in s to kill processes that do not end, or that fork as fast as they end."""
 PROC = Path("/proc")
@@ -48,9 +53,11 @@ class Descendants:
     no process can enter, or has the mark of another device.
     """
 
-    def __init__(self) -> None:
-        """Begin to adopt orphans."""
-        self._mark = f"{MARK}={secrets.token_hex(8)}".encode()
+    def __init__(self, variables: Iterable[str] = ()) -> None:
+        """Begin to adopt orphans; kill what judges that were killed have left running."""
+        _kill_abandoned()
+        self._variables = tuple(variables)
+        self._mark = f"{MARK}={owner_mark()}-{secrets.token_hex(8)}".encode()
         self._others = frozenset(p.pid for p in processes() if p.parent == os.getpid())
         with _adopting:
             _marks.add(self._mark)
@@ -58,10 +65,9 @@ class Descendants:
 
     @property
     def environment(self) -> dict[str, str]:
-        """The environment for the device: the judge's and the mark, without the cache folder."""
+        """The environment for the device: what it is allowed, its ``variables``, and the mark."""
         name, _, value = self._mark.decode().partition("=")
-        ours = {n: v for n, v in os.environ.items() if n != FOLDER_VARIABLE}
-        return {**ours, name: value}
+        return {**environment_of(self._variables), name: value}
 
     def end(self, device: "subprocess.Popen[bytes] | None") -> None:
         """Kill ``device`` and its descendants, and wait until they have ended."""
@@ -122,6 +128,20 @@ def _has_mark(process: Process, marks: Iterable[bytes]) -> bool:
             (PROC / f"{process.pid}/environ").read_bytes().split(b"\0")
         )
     return False
+
+
+@cache
+def _kill_abandoned() -> None:
+    """Kill processes of devices whose judge does not run any more, once in a process.
+
+    A device ends with its judge; what it has started itself, or left before, may not.
+    """
+    for process in processes():
+        with suppress(OSError):
+            words = (PROC / f"{process.pid}/environ").read_bytes().split(b"\0")
+            found = next(filter(None, map(MARKED.fullmatch, words)), None)
+            if found and is_abandoned(found["owner"].decode("ascii")):
+                os.kill(process.pid, signal.SIGKILL)
 
 
 def _kill(process: Process, device: int) -> None:

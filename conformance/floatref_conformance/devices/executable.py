@@ -25,6 +25,7 @@ class ExecDevice:
         folder: the folder in which it is started.
         timeout_s: time for `run` in s; None for 60 s plus twice the recording's length.
         start_s, stop_s: times for `start` and `stop`, in s.
+        variables: names of variables of the environment that it gets beside the usual ones.
     """
 
     argv: tuple[str, ...]
@@ -32,6 +33,7 @@ class ExecDevice:
     timeout_s: float | None = None
     start_s: float = START_S
     stop_s: float = STOP_S
+    variables: tuple[str, ...] = ()
     _session: Session | None = field(default=None, init=False, repr=False)
     _description: Mapping[str, Any] | None = field(default=None, init=False, repr=False)
 
@@ -67,7 +69,7 @@ class ExecDevice:
 
     def _start(self) -> Session:
         if self._session is None or self._session.is_over:
-            self._session = Session(self.argv, self.folder, self.start_s)
+            self._session = Session(self.argv, self.folder, self.start_s, self.variables)
             self._description = self._description or self._session.device
         if self._session.device != self._description:
             raise DeviceError("start: the description differs from that at the first start")

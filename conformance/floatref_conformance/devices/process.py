@@ -13,6 +13,7 @@ from time import monotonic
 from floatref_conformance.devices.descendants import Descendants
 from floatref_conformance.devices.pipes import OF_COMMANDS, Feed, Lines, Most, Tail
 from floatref_conformance.errors import DeviceError, DeviceHung
+from floatref_conformance.parent_death import killed_with_parent
 
 STEP_S = 0.05
 """Interval in which a silent process is inspected, in s."""
@@ -22,12 +23,18 @@ SHOWN_LINES = 5
 SHOWN_LENGTH = 200
 
 
-def start(argv: Sequence[str], folder: Path, most: Most = OF_COMMANDS) -> "Child":
+def start(
+    argv: Sequence[str],
+    folder: Path,
+    variables: Sequence[str] = (),
+    most: Most = OF_COMMANDS,
+) -> "Child":
     """Start ``argv`` in ``folder`` without a shell, in a session of its own.
 
-    It may write ``most``. Raises DeviceError if it cannot be started.
+    It gets the ``variables`` beside those that every device gets, and may write ``most``. Raises
+    DeviceError if it cannot be started.
     """
-    descendants, process = Descendants(), None
+    descendants, process = Descendants(variables), None
     try:
         process = subprocess.Popen(
             list(argv),
@@ -38,6 +45,8 @@ def start(argv: Sequence[str], folder: Path, most: Most = OF_COMMANDS) -> "Child
             cwd=folder,
             env=descendants.environment,
             start_new_session=sys.platform != "win32",
+            # No guard beside it: nothing has to be awake when the judge is killed.
+            preexec_fn=killed_with_parent(),
         )
         return Child(process, descendants, most)
     except BaseException as error:

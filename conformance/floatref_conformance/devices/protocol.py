@@ -29,15 +29,22 @@ class Session:
         is_over: whether the session has ended.
     """
 
-    def __init__(self, argv: Sequence[str], folder: Path, limit_s: float = START_S) -> None:
+    def __init__(
+        self,
+        argv: Sequence[str],
+        folder: Path,
+        limit_s: float = START_S,
+        variables: Sequence[str] = (),
+    ) -> None:
         """Start ``argv`` in ``folder`` and request its description within ``limit_s``.
 
+        ``variables`` names those of the environment that it gets beside the usual ones.
         Raises DeviceError, in one line, or DeviceHung.
         """
         self.is_over = False
         self._seq = 0
         try:
-            self._child: Child = start(argv, folder)
+            self._child: Child = start(argv, folder, variables)
         except DeviceError as fault:
             raise DeviceError(f"start: {fault}") from fault
         with self._step("start"):

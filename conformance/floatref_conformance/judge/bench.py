@@ -23,6 +23,7 @@ from floatref_conformance.judge.exercise import Delivery, early_end_m, exercise
 from floatref_conformance.proving_ground.cache import CachedSimulation, simulate_cached
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, simulate
+from floatref_conformance.worker_pool import wait_for
 
 AGE_NS = 10**10
 """Age given to a file, in ns: longer than any disk's time step, so that a write is detected."""
@@ -177,7 +178,9 @@ class Ahead:
         coming = self._coming.pop(scenario)
         at_once = coming is None or coming.cancel()
         self._begin()
-        return make_taken(scenario) if coming is None or at_once else coming.result()
+        return (
+            make_taken(scenario) if coming is None or at_once else wait_for(coming, "a simulation")
+        )
 
     def close(self) -> None:
         """Drop the simulations that have not begun, and wait for the one in progress."""

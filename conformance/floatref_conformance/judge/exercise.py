@@ -4,19 +4,20 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TypeVar
 
 import numpy as np
 
 from floatref.errors import FloatrefError
 from floatref.files import read_profile, write_recording
+from floatref.files.scratch import scratch_folder
 from floatref.files.sources import real_path
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Recording
 from floatref_conformance.devices.delivered import take
 from floatref_conformance.devices.interface import Description, Device, visible
 from floatref_conformance.errors import DeviceError, DeviceRefused, DeviceSkipped
+from floatref_conformance.room import TEMPORARY, bytes_of, needing_room
 
 MAX_INTERVAL_M = 0.25
 """Largest profile interval from which the IRI can be computed, in m."""
@@ -56,13 +57,16 @@ def exercise(
 
     Raises DeviceError if the profile is unusable, DeviceHung if it does not come in time,
     DeviceRefused for an error in its place, DeviceSkipped if the device does not process the
-    recording.
+    recording, NoRoom if the disk is full.
 
     The device sees a new folder with a neutral name and the channels that it may receive.
     """
-    with TemporaryDirectory(ignore_cleanup_errors=True) as name:
-        folder = real_path(Path(name))
-        given = visible(recording, description.channels)
+    given = visible(recording, description.channels)
+    with (
+        scratch_folder("run") as made,
+        needing_room(made.parent, bytes_of(given), TEMPORARY),
+    ):
+        folder = real_path(made)
         write_recording(given, folder / "recording")
         target = folder / "profile"
         try:
@@ -93,8 +97,8 @@ def _ask(question: Callable[[], Answer]) -> Answer:
 
 def _read(target: Path) -> Profile:
     """Return the profile in ``target``, read from a copy and held in memory."""
-    with TemporaryDirectory(ignore_cleanup_errors=True) as name:
-        copy = real_path(Path(name)) / target.name
+    with scratch_folder("copy") as made:
+        copy = real_path(made) / target.name
         take(target, copy)
         try:
             profile = read_profile(copy)

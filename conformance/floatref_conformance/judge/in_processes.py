@@ -22,7 +22,7 @@ from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.judge.events import CaseReplayed, CheckFinished, CheckStarted, Event
 from floatref_conformance.judge.runner import Emit, Judged, Plan, run
 from floatref_conformance.plugins import load_registry
-from floatref_conformance.worker_pool import worker_pool
+from floatref_conformance.worker_pool import wait_for, worker_pool
 
 OneCheck = tuple[CheckResult, tuple[Mapping[str, Any], ...]]
 """The result of a check, and of its stored cases."""
@@ -142,7 +142,7 @@ def _wait(
     if check.needs <= description.meets:
         fitted = fit_check(check, description.meets)
         emit(CheckStarted(check.id, len(fitted.cases(plan.seed, plan.effort))))
-    result, replayed = future.result()
+    result, replayed = wait_for(future, f"check {check.id}")
     for again in replayed:
         emit(CaseReplayed(again))
     emit(CheckFinished(result))

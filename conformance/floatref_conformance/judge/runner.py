@@ -14,7 +14,7 @@ from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.editions.edition import Edition, find_edition
-from floatref_conformance.errors import DeviceError, SuiteError
+from floatref_conformance.errors import DeviceError, NoRoom, SuiteError
 from floatref_conformance.judge.bench import Ahead
 from floatref_conformance.judge.events import (
     CaseReplayed,
@@ -54,8 +54,9 @@ class Plan:
         waivers: reasons of known failures, by the id of the check.
         ahead: whether the next cases are simulated while the device works.
         edition: of the checks.
-        timeout_s, report: time for a recording in s, and folder of the report; the report names
-            both, so that the run can be reproduced.
+        timeout_s, report, variables: time for a recording in s, folder of the report, and names of
+            variables that the device gets; the report names them, so that the run can be
+            reproduced.
         streams: the checks of streams, for a device that streams.
     """
 
@@ -74,6 +75,7 @@ class Plan:
     report: Path | None = None
     edition: Edition = field(default_factory=find_edition)
     streams: StreamPlan = field(default_factory=StreamPlan)
+    variables: tuple[str, ...] = ()
 
 
 Judged = tuple[list[CheckResult], list[Mapping[str, Any]]]
@@ -85,13 +87,13 @@ def run(plan: Plan, emit: Emit, judge_all: JudgeAll | None = None) -> RunResult:
     """Return the result of ``plan``; ``emit`` is called with every event.
 
     ``judge_all``, if given, judges the checks of the plan in another way.
-    Raises SuiteError, also for sys.exit in a check; there is then no verdict. The device is
-    closed once in every case.
+    Raises NoRoom for a full disk and SuiteError, also for sys.exit in a check; there is then no
+    verdict. The device is closed once in every case.
     """
     closing = Closing(plan.device)
     try:
         return _run(plan, emit, closing, judge_all)
-    except (SuiteError, BrokenPipeError, KeyboardInterrupt):
+    except (SuiteError, NoRoom, BrokenPipeError, KeyboardInterrupt):
         raise
     except (Exception, SystemExit) as error:
         text = " ".join(str(error).split())
@@ -122,7 +124,13 @@ def _judge_streams(
 ) -> tuple[CheckResult, ...]:
     """Return the results of the checks of streams; each run starts the device anew."""
     trial = StreamTrial(
-        description, plan.device_class, plan.seed, plan.effort, emit, plan.timeout_s
+        description,
+        plan.device_class,
+        plan.seed,
+        plan.effort,
+        emit,
+        plan.timeout_s,
+        plan.variables,
     )
     results = judge_streams(plan.streams, plan.device, trial, closing.close)
     return tuple(waive(result, plan.waivers) for result in results)
@@ -247,5 +255,6 @@ def _result(
         replayed=tuple(replayed),
         timeout_s=plan.timeout_s,
         report=plan.report,
+        variables=plan.variables,
         edition=plan.edition.name,
     )

@@ -101,6 +101,7 @@ class StreamTrial:
         seed, effort: draw the drives, and say how many.
         emit: is called with every event.
         timeout_s: time in s for an answer; None for 60 s and twice the drive's length.
+        variables: names of variables of the environment that the device gets.
     """
 
     description: Description
@@ -109,6 +110,7 @@ class StreamTrial:
     effort: Effort
     emit: Emit
     timeout_s: float | None = None
+    variables: tuple[str, ...] = ()
     hangs: int = 0
     _runs: dict[str, StreamRuns] = field(default_factory=dict)
 
@@ -150,6 +152,6 @@ class StreamTrial:
             recording = visible(taken.recording, self.description.channels)
             begin_s, end_s = span(recording)
             limit_s = self.timeout_s or RUN_S + RUN_PER_LENGTH * (end_s - begin_s)
-            command = LiveCommand(tuple(argv), Path.cwd(), limit_s)
+            command = LiveCommand(tuple(argv), Path.cwd(), limit_s, self.variables)
             self._runs[case.name] = StreamRuns(case, recording, taken.truth, command, self.seed)
         return self._runs[case.name]

@@ -23,6 +23,7 @@ from floatref.values.recording import Recording
 from floatref_conformance.proving_ground import entries
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
+from floatref_conformance.room import bytes_of, needing_room
 
 FOLDER_VARIABLE = "FLOATREF_CACHE"
 """Environment variable that names another cache folder."""
@@ -129,7 +130,8 @@ def _ensure(scenario: Scenario, entry: Path) -> bool:
     if entries.use(entry):
         return False
     simulation = simulate(scenario)
-    with entries.new_entry(entry) as beside:
+    needed = bytes_of(simulation.recording)
+    with needing_room(entry.parent, needed, FOLDER_VARIABLE), entries.new_entry(entry) as beside:
         write_recording(simulation.recording, beside / RECORDING)
         write_profile(simulation.truth, beside / TRUTH)
     return True

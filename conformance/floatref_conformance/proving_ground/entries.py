@@ -17,12 +17,15 @@ from errno import EEXIST, ENOTDIR, ENOTEMPTY
 from pathlib import Path
 
 from floatref.files import open_bytes, read_bytes
+from floatref.files.owners import is_abandoned, owner_mark
 
 CHECKSUMS = "checksums.json"
 NEW, OLD = ".new-", ".old-"
 """How the names of folders start that are on their way in or out."""
 ABANDONED_S = 86400.0
 """A folder on its way in or out that is older belongs to a process that died."""
+MARKED = re.compile(r"\.(new|old)-(?P<mark>[0-9a-f]{8}-[0-9]+-[0-9]+)-")
+"""Such a name, with the mark of the process that works on the folder."""
 LARGEST_LIST = 1 << 20
 """Bytes of the list of an entry's files."""
 KEY_LENGTH = 32
@@ -37,7 +40,7 @@ def new_entry(entry: Path) -> Iterator[Path]:
     stays, and the new one is dropped. After an exception nothing is left.
     """
     entry.parent.mkdir(parents=True, exist_ok=True)
-    beside = Path(tempfile.mkdtemp(prefix=NEW, dir=entry.parent))
+    beside = Path(tempfile.mkdtemp(prefix=_marked(NEW), dir=entry.parent))
     try:
         yield beside
         (beside / CHECKSUMS).write_text(json.dumps(_checksums(beside)), encoding="ascii")
@@ -71,7 +74,7 @@ def is_intact(entry: Path) -> bool:
 
 def remove(entry: Path) -> None:
     """Delete an entry, out of the others' sight at once; it may have vanished already."""
-    aside = Path(tempfile.mkdtemp(prefix=OLD, dir=entry.parent))
+    aside = Path(tempfile.mkdtemp(prefix=_marked(OLD), dir=entry.parent))
     try:
         with suppress(FileNotFoundError):
             os.rename(entry, aside / entry.name)
@@ -82,8 +85,19 @@ def remove(entry: Path) -> None:
 def prune(folder: Path) -> None:
     """Delete what processes that died left on its way in or out of ``folder``."""
     for path in folder.iterdir():
-        if path.name.startswith((NEW, OLD)) and _last_used_s(path) < time.time() - ABANDONED_S:
+        if path.name.startswith((NEW, OLD)) and _is_left(path):
             shutil.rmtree(path, ignore_errors=True)
+
+
+def _marked(prefix: str) -> str:
+    return f"{prefix}{owner_mark()}-"
+
+
+def _is_left(path: Path) -> bool:
+    """Return whether the process that made ``path`` has ended, as far as that can be known."""
+    found = MARKED.match(path.name)
+    gone = found is not None and is_abandoned(found["mark"])
+    return gone or _last_used_s(path) < time.time() - ABANDONED_S
 
 
 def shrink(folder: Path, kept: Path, largest_bytes: int) -> None:

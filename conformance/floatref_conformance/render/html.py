@@ -42,7 +42,7 @@ class HtmlReport:
         if isinstance(event, RunStarted):
             self._checks = event.checks
         elif isinstance(event, RunFinished):
-            with replace_file(self.folder / NAME, overwrite=True) as beside:
+            with replace_file(self.folder / NAME, overwrite=True, follow=False) as beside:
                 beside.write_text(as_html(event.result, self._checks), encoding="utf-8")
 
 

@@ -75,7 +75,7 @@ class JUnitReport:
         root = as_xml(result, self._seconds, self._begun or self.now())
         ElementTree.indent(root)
         tree = ElementTree.ElementTree(root)
-        with replace_file(self.folder / NAME, overwrite=True) as beside:
+        with replace_file(self.folder / NAME, overwrite=True, follow=False) as beside:
             tree.write(beside, encoding="utf-8", xml_declaration=True)
 
 

@@ -1,12 +1,12 @@
 """`report.json`: the result for other programs."""
 
 import json
-import os
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from floatref.files.owners import own_name
 from floatref_conformance.checks.verdict import CheckResult, Measurement, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import Event, RunFinished
@@ -79,10 +79,12 @@ def write(document: dict[str, Any], path: Path) -> None:
     """Write ``document`` beside ``path`` and rename it; SuiteError if it breaks the schema."""
     enforce("conformance-report-1", document)
     text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    beside = path.with_name(own_name())
     try:
-        # A lone surrogate, which UTF-8 has no bytes for, becomes its escape in JSON.
-        beside.write_bytes(text.encode("utf-8", "backslashreplace"))
+        # A new file, so that no link is followed, as renaming does not.
+        with beside.open("xb") as stream:
+            # A lone surrogate, which UTF-8 has no bytes for, becomes its escape in JSON.
+            stream.write(text.encode("utf-8", "backslashreplace"))
         beside.replace(path)
     finally:
         beside.unlink(missing_ok=True)

@@ -182,7 +182,7 @@ def reproduction(result: RunResult, *ids: str) -> str:
         words += ["--edition", result.edition]
     for id_ in ids or [c.id for c in (*result.checks, *result.streams) if c.outcome in FAILED]:
         words += ["--check", id_]
-    return shlex.join(words + _timeout(result))
+    return shlex.join(words + _device_options(result))
 
 
 def replay_command(file: str, result: RunResult) -> str:
@@ -192,8 +192,10 @@ def replay_command(file: str, result: RunResult) -> str:
     """
     path = (result.report or Path()) / FOLDER / PurePosixPath(file).name
     words = ["conformance", "replay", path.as_posix(), "--device", str(result.device["spec"])]
-    return shlex.join([*words, "--class", result.device_class.value, *_timeout(result)])
+    return shlex.join([*words, "--class", result.device_class.value, *_device_options(result)])
 
 
-def _timeout(result: RunResult) -> list[str]:
-    return [] if result.timeout_s is None else ["--device-timeout", f"{result.timeout_s:.12g}"]
+def _device_options(result: RunResult) -> list[str]:
+    limit = result.timeout_s
+    words = [] if limit is None else ["--device-timeout", f"{limit:.12g}"]
+    return words + [word for name in result.variables for word in ("--env", name)]

@@ -11,7 +11,7 @@ from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.editions import EDITION
 from floatref_conformance.editions.edition import find_edition
-from floatref_conformance.errors import DeviceError
+from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.judge.bench import DeviceBench
 from floatref_conformance.judge.exercise import close, describe
 from floatref_conformance.judge.judging import describe_failure
@@ -19,7 +19,7 @@ from floatref_conformance.judge.replaying import judge_case
 from floatref_conformance.judge.search import search
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
-from floatref_conformance.worker_pool import worker_pool
+from floatref_conformance.worker_pool import LONGEST_S, worker_pool
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,13 @@ def try_all(tries: Sequence[Try], processes: int) -> Generator[TryResult, None, 
         yield from map(attempt, tries)
         return
     with worker_pool(processes) as pool:
-        for done in as_completed([pool.submit(attempt, one) for one in tries]):
-            yield done.result()
+        coming = [pool.submit(attempt, one) for one in tries]
+        try:
+            for done in as_completed(coming, LONGEST_S):
+                yield done.result()
+        except TimeoutError as error:
+            left = sum(not one.done() for one in coming)
+            raise SuiteError(f"{left} tries not done after {LONGEST_S / 3600:g} h") from error
 
 
 def attempt(wanted: Try) -> TryResult:

@@ -6,11 +6,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from floatref.files import read_profile, write_recording
+from floatref.files.scratch import scratch_folder
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.checks.case import record_for
@@ -140,8 +140,7 @@ class Processing:
         # The motion takes more memory than all that follows.
         del simulation
         kinds = list({each.channels for each in self._about.values()})
-        with TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
-            folder = Path(temporary)
+        with scratch_folder("passes") as folder:
             for number, channels in enumerate(kinds):
                 write_recording(visible(recording, channels), folder / str(number))
             del recording

@@ -85,9 +85,9 @@ def _wrap_answer(point: str, default: Answer) -> Answer:
     def answer(context: Context) -> Sequence[Stage | StageCall]:
         try:
             return stages_of(context.pipeline.answers.get(point, default), context)
-        except FloatrefError:
+        except (FloatrefError, KeyboardInterrupt):
             raise
-        except Exception as error:
+        except BaseException as error:
             reason = f"{type(error).__name__}: {error}"
             raise PluginError(f"pipeline {context.pipeline.name}: {point}: {reason}") from error
 

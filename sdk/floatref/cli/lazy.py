@@ -80,6 +80,9 @@ class LazyGroup(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the sub-command that ``args`` begin with; UsageError, with the one meant."""
+        if args and args[0] in self._lazy:
+            # Most of a short command is the loading of modules: what ends it then knows its name.
+            ctx.invoked_subcommand = args[0]
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:

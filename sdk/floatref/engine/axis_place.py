@@ -11,8 +11,12 @@ from math import ceil
 import numpy as np
 
 from floatref.stages.signals import DISTANCE
+from floatref.values.arrays import FloatArray
+from floatref.values.clock import LATEST_S, UniformClock
 from floatref.values.recording import Channel, Recording
 
+FIRST_REACH = 64
+"""Samples around a time among which known ones are looked for first."""
 TIE = 1e-9
 """Share of an interval by which a distance may be beyond a point and still count as on it."""
 
@@ -65,7 +69,26 @@ def offset_at(recorded: Recording, corrected: Recording, at_s: float) -> float:
 def distance_at(recording: Recording, at_s: float) -> float:
     """Return the distance in m at a time in s, linear between known samples; NaN without any."""
     channel: Channel = recording.channel(DISTANCE, recording.tracks[0])
-    known = ~np.isnan(channel.values)
-    if not known.any():
+    times, values = _around(channel, at_s)
+    if not times.size:
         return float("nan")
-    return float(np.interp(at_s, channel.times_s[known], channel.values[known]))
+    return float(np.interp(at_s, times, values))
+
+
+def _around(channel: Channel, at_s: float) -> tuple[FloatArray, FloatArray]:
+    """Return known samples, on either side of ``at_s`` at least one if there are any."""
+    size, clock = channel.values.size, channel.clock
+    if isinstance(clock, UniformClock):
+        middle = (max(min(at_s, LATEST_S), -LATEST_S) - clock.start_s) * float(clock.rate)
+    else:
+        middle = float(np.searchsorted(clock.times_s, at_s))
+    number, reach = round(min(max(middle, 0.0), size)), FIRST_REACH
+    while True:
+        low, high = max(0, number - reach), min(size, number + reach)
+        values = channel.values[low:high]
+        known = ~np.isnan(values)
+        times = clock.times(high - low, low)[known]
+        before, behind = bool((times <= at_s).any()), bool((times > at_s).any())
+        if (before or low == 0) and (behind or high == size):
+            return times, values[known]
+        reach *= 16

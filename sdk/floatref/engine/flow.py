@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import FloatrefError, InputError, StageError
+from floatref.intake.kept_blocks import KeptBlocks
 from floatref.stages.protocol import Direction, Stage
 from floatref.values.arrays import FloatArray
 from floatref.values.block import Block, Event, Header
@@ -131,11 +132,15 @@ T = TypeVar("T")
 
 
 def run(
-    stages: Sequence[Stage], header: Header, blocks: Iterable[Block]
+    stages: Sequence[Stage],
+    header: Header,
+    blocks: Iterable[Block],
+    tape: type[Tape] | type[KeptBlocks] = Tape,
 ) -> tuple[Header, Iterator[Block]]:
     """Start all ``stages`` and return the last header and the resulting blocks.
 
-    Nothing is processed until the blocks are read. Adjacent backward stages share one pass.
+    Nothing is processed until the blocks are read. Adjacent backward stages share one pass. What
+    is read again is on a ``tape``.
     """
     for stage in stages:
         header = _guard(stage, partial(stage.start, header))
@@ -146,9 +151,9 @@ def run(
                 stream = _forward(stage, stream)
         elif kind == "survey":
             for stage in group:
-                stream = _survey(stage, stream)
+                stream = _survey(stage, stream, tape())
         else:
-            stream = _backward(tuple(group), stream)
+            stream = _backward(tuple(group), stream, tape())
     return header, stream
 
 
@@ -201,16 +206,18 @@ def _forward(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
     yield from (block for block in _guard(stage, stage.finish) if len(block))
 
 
-def _survey(stage: Stage, blocks: Iterator[Block]) -> Iterator[Block]:
-    with Tape() as tape:
+def _survey(stage: Stage, blocks: Iterator[Block], kept: Tape | KeptBlocks) -> Iterator[Block]:
+    with kept as tape:
         for block in blocks:
             _guard(stage, partial(stage.survey, block))
             tape.append(block)
         yield from _forward(stage, tape.forward())
 
 
-def _backward(stages: Sequence[Stage], blocks: Iterator[Block]) -> Iterator[Block]:
-    with Tape() as tape:
+def _backward(
+    stages: Sequence[Stage], blocks: Iterator[Block], kept: Tape | KeptBlocks
+) -> Iterator[Block]:
+    with kept as tape:
         for block in blocks:
             tape.append(block)
         for number in reversed(range(len(tape))):
@@ -233,8 +240,8 @@ def _guard(stage: Stage, call: Callable[[], T]) -> T:
     """Name the stage in every error that it raises, ours or a vendor's."""
     try:
         return call()
-    except FloatrefError:
+    except (FloatrefError, KeyboardInterrupt):
         raise
-    except Exception as error:
+    except BaseException as error:
         reason = f"{type(error).__name__}: {error}"
         raise StageError(f"stage {stage.name}: {reason}") from error

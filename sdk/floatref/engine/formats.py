@@ -62,9 +62,9 @@ def _refuse_recording(path: Path) -> None:
 def _read(form: ProfileFormat, path: Path) -> Profile:
     try:
         profile = form.read(path)
-    except (FloatrefError, OSError):
+    except (FloatrefError, OSError, KeyboardInterrupt):
         raise
-    except Exception as error:
+    except BaseException as error:
         raise PluginError(failure(f"format {form.name}", path, error)) from error
     if not isinstance(profile, Profile):
         raise PluginError(f"format {form.name}: {path}: gave no profile")

@@ -55,6 +55,9 @@ class _Caller:
 class Plugins:
     """All plug-ins of a process, and what they registered.
 
+    Whatever a plug-in raises is its own failure, SystemExit included, and ends no command; Ctrl-C
+    alone does.
+
     ``reports`` has one line for each plug-in that failed and was skipped.
     """
 
@@ -78,7 +81,9 @@ class Plugins:
             self._manager.check_pending()
             if name != BUILT_IN:
                 check_scopes(self._manager, name)
-        except Exception as error:
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:
             self._skip(name, error)
             if self._manager.has_plugin(name):
                 self._manager.unregister(name=name)
@@ -89,7 +94,9 @@ class Plugins:
         for point in points:
             try:
                 plugin = point.load()
-            except (Exception, SystemExit) as error:
+            except KeyboardInterrupt:
+                raise
+            except BaseException as error:
                 self._skip(point.name, error)
             else:
                 self.add(plugin, point.name)
@@ -207,9 +214,9 @@ class Plugins:
     def _guard(self, plugin: str, call: Callable[[], Any]) -> Any:
         try:
             return call()
-        except FloatrefError:
+        except (FloatrefError, KeyboardInterrupt):
             raise
-        except Exception as error:
+        except BaseException as error:
             self._skip(plugin, error)
             return None
 

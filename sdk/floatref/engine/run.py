@@ -24,6 +24,7 @@ from floatref.engine.validity_and_sigma import Reach
 from floatref.engine.withdrawing import withdraw
 from floatref.errors import InputError
 from floatref.intake.blocks import Source
+from floatref.intake.kept_blocks import KeptBlocks
 from floatref.interfaces.drop_out import DropOut
 from floatref.interfaces.pipeline import Context, Pipeline
 from floatref.measures.consistency import record_innovations
@@ -190,7 +191,9 @@ def _run_and_collect(
     order: _Order, source: Source, stages: list[Stage], progress: Progress | None
 ) -> Profile:
     """Pass the blocks through the stages and return the resulting profile."""
-    header, blocks = flow.run(stages, source.header, _report_progress(source, progress))
+    # A part of a longer run has a bounded length.
+    tape = flow.Tape if order.place is None else KeptBlocks
+    header, blocks = flow.run(stages, source.header, _report_progress(source, progress), tape)
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
     laser = record_laser(header.setup, header.tracks, stages)

@@ -1,30 +1,31 @@
 """Atomic writing: the content is written beside the target, then renamed to it."""
 
 import os
-import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from floatref.errors import InputError, TargetExists
+from floatref.files.owners import PREFIX, own_name, sweep_once
 
 SAMPLE_SUFFIXES = (".f64", ".u8")
 """Suffixes of a directory's sample files, which are deleted when it is replaced."""
 
 
 @contextmanager
-def replace_file(path: Path, overwrite: bool = False) -> Iterator[Path]:
+def replace_file(path: Path, overwrite: bool = False, follow: bool = True) -> Iterator[Path]:
     """Yield a path beside ``path``, with its suffix, to write to; rename it at the end.
 
     After any exception, KeyboardInterrupt included, the new file is gone and ``path`` is as
-    before. Raises InputError if ``path`` exists and ``overwrite`` is false, is not a file, or
-    cannot be written.
+    before. What a link points to is replaced; without ``follow`` the link itself, for a folder in
+    which others may have planted it. Raises InputError if ``path`` exists and ``overwrite`` is
+    false, is not a file, or cannot be written.
     """
-    target = _target(path, overwrite)
+    target = _target(path, overwrite, follow)
     beside = _beside(target)
     with _explain_errors(path, target):
-        if target.exists() and not target.is_file():
+        if target.exists() and not (target.is_file() or target.is_symlink()):
             raise InputError(f"{path}: is not a file; give the name of a file to write")
         try:
             yield beside
@@ -63,10 +64,15 @@ def check_target(path: Path, overwrite: bool = False) -> None:
     _target(path, overwrite)
 
 
-def _target(path: Path, overwrite: bool) -> Path:
-    """Return the path behind any links, so that a link stays a link."""
+def _target(path: Path, overwrite: bool, follow: bool = True) -> Path:
+    """Return the path behind any links, so that a link stays a link.
+
+    Without ``follow`` only the links of its folder are resolved.
+    """
     try:
         target = Path(os.path.realpath(path))
+        if not follow and path.name not in ("", ".."):
+            target = Path(os.path.realpath(path.parent), path.name)
     except ValueError as error:
         raise InputError(f"{str(path)!a}: no possible file name; choose another") from error
     _refuse_existing(target, overwrite)
@@ -83,7 +89,9 @@ def _refuse_existing(target: Path, overwrite: bool) -> None:
 
 
 def _beside(target: Path) -> Path:
-    return target.with_name(f".floatref-{secrets.token_hex(6)}{target.suffix}")
+    """Return a new name beside ``target``; what killed processes left there is removed."""
+    sweep_once(target.parent)
+    return target.with_name(own_name(suffix=target.suffix))
 
 
 def _check_replaceable(target: Path, path: Path, document: str) -> None:
@@ -103,7 +111,7 @@ def _explain_errors(path: Path, target: Path) -> Iterator[None]:
         yield
     except OSError as error:
         where = str(error.filename or target)
-        if where != str(target) and ".floatref-" not in where:
+        if where != str(target) and PREFIX not in where:
             raise
         reason = error.strerror or str(error)
         raise InputError(

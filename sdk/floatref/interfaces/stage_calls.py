@@ -61,9 +61,9 @@ def _make(
         raise InputError(f"stage {name}: {error}; it takes {signature(kind)}") from error
     try:
         stage = kind(*arguments, **keywords)
-    except FloatrefError:
+    except (FloatrefError, KeyboardInterrupt):
         raise
-    except Exception as error:
+    except BaseException as error:
         raise PluginError(f"stage {name}: {type(error).__name__}: {error}") from error
     if not isinstance(stage, Stage):
         raise PluginError(f"stage {name}: made {type(stage).__name__}, which is not a Stage")

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import CHANNELS, ChannelId, channel_spec
-from floatref.values.clock import StampedClock, UniformClock
+from floatref.values.clock import LATEST_S, StampedClock, UniformClock
 from floatref.values.display.similar_names import suggest
 from floatref.values.plain import numbers
 from floatref.values.recording import Channel, Recording, Setup
@@ -124,8 +124,18 @@ class Entrance:
         times, values = _array(f"{name}: times", given[0]), _array(name, given[1])
         if times.size != values.size:
             raise InputError(f"channel {name}: {values.size} samples but {times.size} time stamps")
-        self._check_times(name, times)
+        if not self._go_on(name, times):
+            self._check_times(name, times)
         return Piece(values, times)
+
+    def _go_on(self, name: ChannelId, times: FloatArray) -> bool:
+        """Return whether ``times`` follow those before, as nearly all do: a few cheap questions."""
+        before = self.latest_s.get(name)
+        if before is None or not times.size:
+            return False
+        first, last = float(times[0]), float(times[-1])
+        follows = before < first <= last <= min(before + LEAPS_S, LATEST_S)
+        return follows and (times.size == 1 or bool((times[1:] > times[:-1]).all()))
 
     def _check_times(self, name: ChannelId, times: FloatArray) -> None:
         try:

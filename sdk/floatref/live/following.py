@@ -79,6 +79,7 @@ class Following:
         self.joints = Joints(order.tracks, order.interval_m, fade)
         self.tick: int | None = None
         self.distance_m: float | None = None
+        self._needed_s = -np.inf
         self.late: dict[ChannelId, int] = {}
         self.late_in_all: dict[ChannelId, int] = {}
         self.refused: InputError | None = None
@@ -140,8 +141,11 @@ class Following:
         if cut is not None:
             yield from self._process(cut)
         yield from self._look_ahead(before_s, time_s, cut)
-        for each in self.held.values():
-            each.drop(self.plan.needed_from(tick))
+        needed_s = self.plan.needed_from(tick)
+        if needed_s != self._needed_s:
+            self._needed_s = needed_s
+            for each in self.held.values():
+                each.drop(needed_s)
 
     def _look_ahead(self, begin_s: float, end_s: float, cut: Cut | None) -> Iterator[LivePoints]:
         if self.forward is None:

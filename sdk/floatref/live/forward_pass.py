@@ -5,19 +5,30 @@ alone shifts long waves along the road: the error of a point is as large as its 
 and more, so these points show that a run is good, and not how rough the road is.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from floatref.errors import InputError
 from floatref.live.held_samples import HeldChannel
 from floatref.live.points import LivePoints, State
-from floatref.retrofit import MatchedHighPass, TravelSpeed
-from floatref.stages.signals import DISTANCE
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.stages.filters.matched_high_pass import MatchedHighPass
+from floatref.stages.filters.schedule import ScheduleCutOff
+from floatref.stages.protocol import Stage
+from floatref.stages.signals import (
+    ACCELERATION,
+    DISTANCE,
+    HEIGHT,
+    REFERENCE_HEIGHT,
+    TRAVEL_SPEED,
+)
+from floatref.stages.speed import TravelSpeed
+from floatref.values.arrays import BoolArray, FloatArray, frozen
+from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.clock import UniformClock
-from floatref.values.needs import FORCE, HEIGHT
+from floatref.values.needs import FORCE
 from floatref.values.profile import ProfileTrack
 from floatref.values.recording import Recording
 
@@ -45,16 +56,33 @@ class ForwardPass:
         ``clock`` is that of the first accelerometer.
         """
         self._tracks, self._distance, self._interval_m = tracks, distance, interval_m
+        self._force = next(iter(tracks.values()))[0]
         self._clock = clock
         self.begin()
 
     def begin(self) -> None:
         """Forget all samples, as where a distance was set back."""
-        self._speed = TravelSpeed(self._clock.rate)
-        self._filters = {track: MatchedHighPass(self._clock.rate) for track in self._tracks}
         self._farthest_m = -np.inf
-        self._last: tuple[float, dict[str, float]] | None = None
         self._next: int | None = None
+        self._run_in()
+
+    def _run_in(self) -> None:
+        """Begin the filters anew, whose past is not that of the next samples."""
+        axis = Header(
+            Axis.TIME,
+            float(1 / self._clock.rate),
+            0.0,
+            self._clock.rate,
+            frozenset({ChannelId(DISTANCE)}),
+            tuple(self._tracks),
+        )
+        names = (ChannelId(n, track) for track in self._tracks for n in (ACCELERATION, HEIGHT))
+        header = axis.adding(*names)
+        self._stages: tuple[Stage, ...] = TravelSpeed(), ScheduleCutOff(), MatchedHighPass()
+        for stage in self._stages:
+            header = stage.start(header)
+        self._count = 0
+        self._last: tuple[float, dict[str, float]] | None = None
         self._slow_m = np.nan
 
     def advance(
@@ -62,38 +90,43 @@ class ForwardPass:
     ) -> LivePoints | None:
         """Return the points that the vehicle passed after ``begin_s`` and up to ``end_s``, if any.
 
-        The axis is ``offset_m`` ahead of the encoder. A stretch with no distance or a channel
-        without any sample gives no points.
+        The axis is ``offset_m`` ahead of the encoder. Where a channel has no sample in the stretch,
+        nor in twice its length before, there are no points, and the filters begin anew.
         """
-        force = next(iter(self._tracks.values()))[0]
-        times, _ = held[force].between(begin_s, end_s)
-        distance = _at(held[self._distance], times, begin_s)
-        if distance is None:
+        signals = self._read(held, begin_s, end_s)
+        if signals is None:
+            self._run_in()
             return None
+        distance = signals[ChannelId(DISTANCE)]
         distance = np.maximum.accumulate(np.maximum(distance, self._farthest_m))
         self._farthest_m = float(distance[-1])
+        block = Block(self._count, {**signals, ChannelId(DISTANCE): frozen(distance)})
+        self._count += len(block)
         try:
-            speed = self._speed.of(distance)
-            elevations = dict(self._elevations(held, times, begin_s, speed))
+            for stage in self._stages:
+                block = stage.push(block)
         except InputError:  # No vehicle is so fast.
             self.begin()
             return None
-        if len(elevations) < len(self._tracks):
-            return None
-        return self._project(distance + offset_m, speed, elevations)
+        elevations = {
+            track: block[ChannelId(REFERENCE_HEIGHT, track)] - block[ChannelId(HEIGHT, track)]
+            for track in self._tracks
+        }
+        return self._project(distance + offset_m, block[ChannelId(TRAVEL_SPEED)], elevations)
 
-    def _elevations(
-        self,
-        held: Mapping[ChannelId, HeldChannel],
-        times: FloatArray,
-        begin_s: float,
-        speed: FloatArray,
-    ) -> Iterator[tuple[str, FloatArray]]:
+    def _read(
+        self, held: Mapping[ChannelId, HeldChannel], begin_s: float, end_s: float
+    ) -> dict[ChannelId, FloatArray] | None:
+        """Return all signals at the accelerometer's samples; None if one has no sample."""
+        steps = Steps(self._clock, *held[self._force].numbers(begin_s, end_s), begin_s)
+        found = {ChannelId(DISTANCE): steps.read(held[self._distance])}
         for track, (force, height) in self._tracks.items():
-            a, h = (_at(held[name], times, begin_s) for name in (force, height))
-            if a is not None and h is not None:
-                reference = self._filters[track].reference_height(a - STANDARD_GRAVITY, h, speed)
-                yield track, reference - h
+            forces = steps.read(held[force])
+            known = None if forces is None else frozen(forces - STANDARD_GRAVITY)
+            found[ChannelId(ACCELERATION, track)] = known
+            found[ChannelId(HEIGHT, track)] = steps.read(held[height])
+        known_signals = {name: signal for name, signal in found.items() if signal is not None}
+        return known_signals if len(known_signals) == len(found) else None
 
     def _project(
         self, distance: FloatArray, speed: FloatArray, elevations: Mapping[str, FloatArray]
@@ -122,24 +155,39 @@ class ForwardPass:
 
     def _valid(self, distance: FloatArray, speed: FloatArray) -> BoolArray:
         """Return at which samples the vehicle has been fast for long enough."""
-        slow = np.where(speed < SLOW_MPS, distance, -np.inf)
+        is_slow = speed < SLOW_MPS
+        if not is_slow.any() and self._slow_m == self._slow_m:
+            return np.asarray(distance - self._slow_m >= SETTLES_M)
+        slow = np.where(is_slow, distance, -np.inf)
         since = np.maximum.accumulate(np.append(self._slow_m, slow))[1:]
         self._slow_m = float(since[-1])
         valid: BoolArray = distance - since >= SETTLES_M
         return valid
 
 
-def _at(channel: HeldChannel, times: FloatArray, begin_s: float) -> FloatArray | None:
-    """Return the samples of ``channel`` at ``times``, behind ``begin_s``; None without any.
+@dataclass(frozen=True)
+class Steps:
+    """The samples ``low`` to ``high`` - 1 of a ``clock``, which come after ``begin_s``."""
 
-    They are linear between the known ones.
-    """
-    if not times.size:
-        return None
-    around_s = 2.0 * (times[-1] - begin_s)
-    where, values = channel.between(begin_s - around_s, float(times[-1]))
-    known = ~np.isnan(values)
-    return np.interp(times, where[known], values[known]) if known.any() else None
+    clock: UniformClock
+    low: int
+    high: int
+    begin_s: float
+
+    def read(self, channel: HeldChannel) -> FloatArray | None:
+        """Return ``channel`` at these times, linear between its known samples; None without any."""
+        if self.high <= self.low:
+            return None
+        if channel.clock == self.clock:
+            own = channel.values.take(self.low, self.high)
+            # A sum is NaN if and only if a sample is.
+            if own.size == self.high - self.low and not np.isnan(own.sum()):
+                return own
+        times = self.clock.times(self.high - self.low, self.low)
+        around_s = 2.0 * (times[-1] - self.begin_s)
+        where, values = channel.between(self.begin_s - around_s, float(times[-1]))
+        known = ~np.isnan(values)
+        return frozen(np.interp(times, where[known], values[known])) if known.any() else None
 
 
 def forward_pass_of(

@@ -127,6 +127,11 @@ class HeldChannel:
         """Return the number of samples held."""
         return self.values.end - self.values.first
 
+    @property
+    def taken(self) -> int:
+        """Number of samples of a channel with a rate that have come."""
+        return self.values.end - self.owed
+
     def restore(self, values: FloatArray, times_s: FloatArray, first: int) -> None:
         """Hold these samples alone, the first of which has the number ``first``."""
         for pieces, array in ((self.values, values), (self.times, times_s)):

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.live.window_records import describe_windows
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile, ProfileTrack
 
@@ -69,7 +70,7 @@ def join_points(points: Iterable[LivePoints]) -> Profile:
     """Return the profile of the final ones of ``points``, in order; others are left out.
 
     Points between two of them that were never measured are missing. Its record has that of every
-    window. Raises InputError without a final point.
+    window, see `describe_windows`. Raises InputError without a final point.
     """
     final = [each for each in points if each.state is State.FINAL]
     if not final:
@@ -79,7 +80,7 @@ def join_points(points: Iterable[LivePoints]) -> Profile:
     parts = [_without_missing(names, each, before) for before, each in _pairs(final)]
     tracks = (_join([part[n] for part in parts], name) for n, name in enumerate(names))
     made_by = describe_points(made)
-    live = {"windows": [record_of_window(each) for each in final]}
+    live = describe_windows([each.record for each in final])
     return Profile(
         interval_m=made.interval_m,
         tracks=tuple(tracks),

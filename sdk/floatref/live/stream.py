@@ -12,9 +12,11 @@ from floatref.errors import StageError
 from floatref.live.bounds import LATE_S, Latency
 from floatref.live.declared_channels import Declared, Entrance, Piece, Samples, read_declarations
 from floatref.live.following import Following
+from floatref.live.gathering import Gathering
 from floatref.live.points import LivePoints
 from floatref.live.saved_state import load_state, save_state
 from floatref.live.starting import settle
+from floatref.live.warming import warm
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup
 
@@ -33,6 +35,8 @@ class LiveStream:
     def __init__(self, following: Following, entrance: Entrance) -> None:
         """Start the thread that works on ``following``."""
         self._following, self._entrance = following, entrance
+        taken = {name: each.taken for name, each in following.held.items()}
+        self._gathering = Gathering(following.order.clocks, taken)
         self._changed = Condition()
         self._queue: deque[Pieces | None] = deque()
         self._waiting = 0
@@ -78,26 +82,24 @@ class LiveStream:
 
         A channel with a rate has its samples, shape (N,), in SI units, NaN for missing ones; one
         without has (times in s, samples). Each channel has its own order, and may be late. Samples
-        are copied. It waits while too many samples are in the queue.
+        are copied, and go to the thread every half second of theirs. It waits while too many
+        samples are in the queue.
 
         Raises InputError for samples that cannot be used, and then takes no sample of the push;
         StageError after `finish` or `close`; and any error of the thread.
         """
-        self._check_open("push")
-        pieces = self._entrance.check(samples)
-        count = sum(piece.values.size for piece in pieces.values())
-        with self._changed:
-            self._changed.wait_for(lambda: self._fits(count) or self._error is not None)
-            self._raise_error()
-            self._queue.append(pieces)
-            self._waiting += count
-            self._changed.notify_all()
+        if self._error is not None or not self.is_open:
+            self._check_open("push")
+        if self._gathering.take(samples, self._entrance):
+            self._hand_over()
 
     def ready(self, wait: bool = False) -> list[LivePoints]:
         """Return the points made since the last call, in order; with ``wait``, of all pushes.
 
         Raises any error of the thread.
         """
+        if wait and self.is_open:
+            self._hand_over()
         with self._changed:
             if wait:
                 self._changed.wait_for(self._is_idle)
@@ -112,6 +114,7 @@ class LiveStream:
         refused every window.
         """
         self._check_open("finish")
+        self._hand_over()
         with self._changed:
             self._queue.append(None)
             self._finished = True
@@ -128,6 +131,7 @@ class LiveStream:
         Raises StageError after the end; any error of the thread; InputError if it cannot write.
         """
         self._check_open("save")
+        self._hand_over()
         with self._changed:
             self._changed.wait_for(self._is_idle)
             self._raise_error()
@@ -153,6 +157,19 @@ class LiveStream:
     ) -> None:
         """Close it."""
         self.close()
+
+    def _hand_over(self) -> None:
+        """Give the thread what was pushed since the last time."""
+        pieces = self._gathering.hand_over()
+        if not pieces:
+            return
+        count = sum(piece.values.size for piece in pieces.values())
+        with self._changed:
+            self._changed.wait_for(lambda: self._fits(count) or self._error is not None)
+            self._raise_error()
+            self._queue.append(pieces)
+            self._waiting += count
+            self._changed.notify_all()
 
     def _fits(self, count: int) -> bool:
         return not self._waiting or self._waiting + count <= WAITING
@@ -225,6 +242,7 @@ def start_stream(
     """
     clocks = read_declarations(channels)
     order = settle(setup, clocks, pipeline, settings, late_s)
+    warm(order, provisional)
     return LiveStream(Following(order, provisional), Entrance(clocks))
 
 
@@ -234,4 +252,6 @@ def resume_stream(path: Path | str) -> LiveStream:
     Provisional points begin anew, and are not valid before the vehicle has gone a wavelength.
     Raises InputError for a file that is no saved stream, or of another version of floatref.
     """
-    return LiveStream(*load_state(Path(path)))
+    following, entrance = load_state(Path(path))
+    warm(following.order, following.forward is not None)
+    return LiveStream(following, entrance)

@@ -1,13 +1,13 @@
 """Samples on disk, so that memory does not grow with the file."""
 
 import shutil
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
 from floatref.errors import InputError
 from floatref.files.samples import SAMPLE, read_samples
+from floatref.files.scratch import make_scratch
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.scanning import chunks
 
@@ -23,12 +23,7 @@ class Spool:
 
     def __init__(self) -> None:
         """Make the folder where the system keeps temporary files (`TMPDIR`)."""
-        try:
-            self._folder = Path(tempfile.mkdtemp(prefix="floatref-"))
-        except OSError as error:
-            raise InputError(
-                f"no folder for samples: {error.strerror or error}; set TMPDIR to one with room"
-            ) from error
+        self._folder = make_scratch("samples")
         self._columns: list[SpooledColumn] = []
 
     def __enter__(self) -> "Spool":

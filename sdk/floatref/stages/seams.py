@@ -43,7 +43,8 @@ class Grade:
         seen = np.flatnonzero(~np.isnan(height))
         if not seen.size:
             return
-        place, height = place[seen], height[seen]
+        if seen.size < height.size:
+            place, height = place[seen], height[seen]
         latest = self.places[-1:] if self.places.size else place[:1] - POINT_M
         cells = np.maximum.accumulate(np.floor(np.append(latest, place) / POINT_M))
         new = np.flatnonzero(np.diff(cells) > 0)
@@ -149,6 +150,9 @@ class Seams(Stage):
         shift: float = self.memory["shift"][track]
         grade: Grade = self.memory["grade"][track]
         shifts = np.full(height.size, shift) if shift or seams else None
+        if not seams and known.size == height.size:
+            grade.add(place, height)
+            return shifts
         first = known[: seams[0] if seams else known.size]
         grade.add(place[first], height[first])
         for begin, end in pairwise([*seams, known.size]):

@@ -57,8 +57,14 @@ class UniformClock:
 
     def times(self, count: int, first: int = 0, step: int = 1) -> FloatArray:
         """Return the times in s of ``count`` samples, every ``step``-th from ``first`` on."""
-        index = first + step * np.arange(count, dtype=np.float64)
-        return self.start_s + index * self.rate.denominator / self.rate.numerator
+        # In place: channels of millions of samples ask for their times.
+        times = np.arange(count, dtype=np.float64)
+        times *= step
+        times += first
+        times *= self.rate.denominator
+        times /= self.rate.numerator
+        times += self.start_s
+        return times
 
 
 @dataclass(frozen=True, eq=False)

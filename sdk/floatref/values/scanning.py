@@ -81,7 +81,10 @@ class Summary:
         """Return the summary of ``values``, shape (N,), NaN being a missing sample."""
         missing, total, least, greatest = 0, 0.0, np.inf, -np.inf
         for _, chunk in chunks(values):
-            valid = chunk[~np.isnan(chunk)]
+            with np.errstate(over="ignore", invalid="ignore"):
+                # A sum is NaN if a sample is; then alone they have to be chosen.
+                whole = not np.isnan(np.sum(chunk))
+            valid = chunk if whole else chunk[~np.isnan(chunk)]
             missing += chunk.size - valid.size
             if valid.size:
                 with np.errstate(over="ignore", invalid="ignore"):

@@ -24,6 +24,7 @@ OPTIONS = {
     "--max-distance-error": ("distance_percent", "0.3", 0.3),
     "--max-height-error": ("height_percent", "none", None),
     "--max-iri-bias": ("iri_bias_percent", "4", 4.0),
+    "--max-long-wave-error": ("long_wave_percent", "8", 8.0),
     "--max-quiescent": ("quiescent_m_per_km", "0.1", 0.1),
     "--max-bounce": ("bounce_m_per_km", "0.2", 0.2),
 }

@@ -27,7 +27,7 @@ PARTS = {
     ],
     "batch": [
         (package, ("batch", "run", "--out", "out"))
-        for package in ("dask", "distributed", "pyarrow")
+        for package in ("cryptography", "dask", "distributed", "pyarrow")
     ],
     "adapters": [
         ("pyarrow", ("convert", "road", "--out", "road.parquet")),

@@ -1,6 +1,7 @@
 """`floatref process` on native files: profile, provenance, and nothing left behind."""
 
 import hashlib
+import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -9,7 +10,6 @@ import numpy as np
 import pytest
 
 from floatref.files import read_profile, write_recording
-from floatref.mapping import spool as spools
 from floatref.values.clock import UniformClock
 from floatref.values.native import Column, NativeClock, NativeFile, Rows, Stream
 from floatref.values.recording import Channel, Recording, Setup
@@ -92,7 +92,7 @@ def folder(logger: Logger, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> P
     for name in ("run.log", "more/run.log", "bus.dbc"):
         (tmp_path / name).write_text(name)
     (tmp_path / "map.toml").write_text(MAP)
-    monkeypatch.setattr(spools.tempfile, "tempdir", str(tmp_path / "temporary"))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
     return tmp_path
 
 

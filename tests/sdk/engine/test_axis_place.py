@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from floatref.engine.axis_place import Place, distance_at, first_point, offset_at, point_number
 from floatref.engine.run import run
+from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
 
 
@@ -58,3 +59,28 @@ def test_the_points_of_a_placed_run_are_multiples_of_the_interval(steady, pipeli
     assert whole.profile.start_m == 7.013
     assert placed.profile.start_m == pytest.approx(107.05, abs=1e-9)
     assert placed.profile.length_m == pytest.approx(whole.profile.length_m, abs=0.051)
+
+
+@given(
+    st.integers(1, 400),
+    st.integers(0, 2**31),
+    st.sampled_from([None, 1.0, 100.0, 333.3]),
+    st.one_of(st.floats(-10.0, 500.0), st.sampled_from([-np.inf, np.inf])),
+    st.sampled_from([0.0, 0.3, 0.95, 1.0]),
+)
+def test_a_distance_is_on_the_line_between_the_known_samples_around(
+    count, seed, rate_hz, at_s, missing
+):
+    rng = np.random.default_rng(seed)
+    values = np.cumsum(rng.uniform(0.0, 1.0, count))
+    values[rng.uniform(size=count) < missing] = np.nan
+    clock = UniformClock.of(rate_hz, 0.3) if rate_hz else None
+    times = np.cumsum(rng.uniform(0.1, 2.0, count)) if clock is None else clock.times(count)
+    channel = Channel.of("distance", values, clock or StampedClock.of(times))
+    force = Channel.of("vertical_specific_force", np.zeros(9), UniformClock.of(10.0))
+    found = distance_at(Recording((force, channel)), at_s)
+    known = ~np.isnan(values)
+    if known.any():
+        assert found == np.interp(at_s, times[known], values[known])
+    else:
+        assert np.isnan(found)

@@ -135,3 +135,11 @@ def pieces():
 @pytest.fixture(scope="session")
 def same():
     return assert_same
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cold():
+    """Start streams without the drive that loads kernels: tests replace parts of what it runs."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("floatref.live.stream.warm", lambda order, provisional: None)
+        yield

@@ -1,7 +1,9 @@
 """What a stream holds over days: samples of one window, and nothing that grows."""
 
+import os
 import threading
 import tracemalloc
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from floatref import InputError, Setup, start_stream
 from floatref.live.declared_channels import Piece
 from floatref.live.following import Following
 from floatref.live.joints import WindowPoints
+from floatref.live.points import State
 from floatref.live.starting import settle
 from floatref.live.stream import WAITING
 from floatref.live.window_run import Processed
@@ -93,6 +96,28 @@ def test_a_stream_ends_its_thread(drive):
             assert threading.active_count() == before + 1
             getattr(stream, end)()
         assert threading.active_count() == before
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="the system does not list handles")
+def test_a_stream_opens_no_file_and_has_one_thread_all_along(drive):
+    recording = drive([(20.0, 90.0), (0.0, 8.0), (20.0, 90.0)], rate_hz=100.0)
+    channels = {c.id: 100.0 for c in recording.channels}
+
+    def held():
+        return len(os.listdir("/proc/self/fd")), threading.active_count()
+
+    start_stream(recording.setup, channels, "temporal-adaptive-hpf").close()
+    files, threads = held()
+    with start_stream(recording.setup, channels, "temporal-adaptive-hpf") as stream:
+        points = []
+        for first in range(0, recording.channels[0].values.size, 700):
+            part = slice(first, first + 700)
+            stream.push({c.id: c.values[part] for c in recording.channels})
+            points += stream.ready(wait=True)
+            assert held() == (files, threads + 1)
+        assert any(p.state is State.FINAL for p in points)
+        stream.finish()
+    assert held() == (files, threads)
 
 
 def test_a_push_waits_for_a_slow_thread_and_loses_nothing(monkeypatch):

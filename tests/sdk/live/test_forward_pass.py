@@ -6,8 +6,12 @@ import pytest
 from floatref import start_stream
 from floatref.live.as_live import clocks_of
 from floatref.live.bounds import TICK_S
+from floatref.live.declared_channels import Piece
+from floatref.live.forward_pass import forward_pass_of
+from floatref.live.held_samples import HeldChannel
 from floatref.live.points import State
 from floatref.measures import iri
+from floatref.values.recording import Channel
 
 INTERVAL_M = 0.1
 
@@ -80,3 +84,48 @@ def test_they_do_not_depend_on_the_pieces(recording, pieces):
     )
     for a, b in zip(joined(one, State.PROVISIONAL), joined(two, State.PROVISIONAL), strict=True):
         np.testing.assert_array_equal(a, b)
+
+
+MISSING_S = 40.0, 47.0
+
+
+@pytest.mark.parametrize("name", ["distance", "left.height", "right.vertical_specific_force"])
+def test_behind_a_missing_channel_it_begins_anew(recording, name):
+    """Points behind the gap are those of a pass that has seen nothing before it."""
+    channels = [_without(c, MISSING_S) if str(c.id) == name else c for c in recording.channels]
+    found = list(_passed(recording, channels, 0.0))
+    behind = list(_passed(recording, channels, MISSING_S[1] - 5.0))
+    assert behind[0].first * INTERVAL_M > 20.0 * MISSING_S[1] - 25.0
+    numbers, elevation, valid = joined(found, State.PROVISIONAL)
+    own_numbers, own_elevation, own_valid = joined(behind, State.PROVISIONAL)
+    where = numbers >= own_numbers[0]
+    np.testing.assert_array_equal(numbers[where], own_numbers)
+    np.testing.assert_array_equal(elevation[where], own_elevation)
+    np.testing.assert_array_equal(valid[where], own_valid)
+    # The last sample is held for a second.
+    gap_m = 20.0 * np.array(MISSING_S) + np.array([25.0, -11.0])
+    assert not ((numbers * INTERVAL_M > gap_m[0]) & (numbers * INTERVAL_M < gap_m[1])).any()
+    # It runs in over a wavelength, and has the speed of the vehicle then.
+    assert not valid[
+        (numbers * INTERVAL_M > gap_m[0]) & (numbers * INTERVAL_M < gap_m[1] + 100)
+    ].any()
+    assert valid[(numbers * INTERVAL_M > gap_m[1] + 140) & (numbers * INTERVAL_M < 2400)].all()
+
+
+def _without(channel, span_s):
+    values, times = np.array(channel.values), channel.times_s
+    values[(times > span_s[0]) & (times < span_s[1])] = np.nan
+    return Channel(channel.id, values, channel.clock)
+
+
+def _passed(recording, channels, begin_s):
+    """Yield the points of a forward pass that is asked for them from ``begin_s`` on."""
+    held = {c.id: HeldChannel(c.id, c.clock) for c in channels}
+    for each in channels:
+        held[each.id].add(Piece(each.values))
+    clock = recording.channel("vertical_specific_force", "left").clock
+    forward = forward_pass_of(recording, ("left", "right"), clock, INTERVAL_M)
+    for tick in range(round(begin_s / TICK_S), round(130.0 / TICK_S)):
+        points = forward.advance(held, tick * TICK_S, (tick + 1) * TICK_S, 0.0)
+        if points is not None:
+            yield points

@@ -1,5 +1,6 @@
 """A logger whose files hold what a test says, and a run that can be given to it."""
 
+import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -10,7 +11,6 @@ import pytest
 
 from floatref.errors import FloatrefError, InputError
 from floatref.mapping import Reading, read_map, read_native
-from floatref.mapping import spool as spools
 from floatref.mapping.channel_map.entries import ChannelEntry, ChannelMap, ClockEntry
 from floatref.mapping.clocks.columns import Taken, Wanted, as_they_are, take
 from floatref.mapping.spool import Spool
@@ -207,7 +207,7 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder in which temporary files are kept."""
     folder = tmp_path / "temporary"
     folder.mkdir()
-    monkeypatch.setattr(spools.tempfile, "tempdir", str(folder))
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
     return folder
 
 

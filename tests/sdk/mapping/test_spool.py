@@ -2,6 +2,7 @@
 
 import errno
 import os
+import tempfile
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -92,6 +93,6 @@ def test_a_disk_that_is_full_is_told_in_one_line(
 
 
 def test_a_system_without_a_temporary_folder_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(spools.tempfile, "tempdir", "/nowhere/at/all")
+    monkeypatch.setattr(tempfile, "tempdir", "/nowhere/at/all")
     with pytest.raises(InputError, match=r"no folder for samples: No such file .*; set TMPDIR"):
         Spool()

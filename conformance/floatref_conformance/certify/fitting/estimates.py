@@ -1,9 +1,8 @@
-"""Gain and lag of a run against the reference, from spectra of windows, and their scatter.
+"""Lag and gain of a run against the reference, from spectra of windows, errors in both.
 
-A run takes a wave of wave number k as h·exp(c·k² ∓ c²·k⁴/5) times the reference: h is the scale of
-heights, the rest is what footprints do to the shorter waves, and nothing to the longest. It is
-the beginning of ln(sin x / x), the gain of an average over a length. The run lies farther along
-by a lag that is a straight line of distance.
+The run lies farther along by a lag that is a straight line of distance. Its gain is that of
+`symmetric`. Whatever is computed of both changes its sign, or becomes its inverse, if run and
+reference change places.
 """
 
 import math
@@ -13,14 +12,21 @@ import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.certify.fitting.spectra import Spectra, Windows
+from floatref_conformance.certify.fitting.symmetric import (
+    SymmetricGain,
+    bands_of,
+    find_division,
+    fit_bands,
+    footprint,
+)
 
 BLOCKS = 12
-"""Stretches of the section, each left out once to estimate the scatter."""
+"""Stretches of the section, each left out once to estimate the scatter of the lag."""
 UNDERSTATED = 1.12
 """Factor by which the scatter of so few blocks, weighted by themselves, is too small."""
 ROBUST = 2.0
 """A window counts less if its residual is larger than this many times the usual one."""
-ITERATIONS = 8
+ITERATIONS = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,17 +34,18 @@ class Estimate:
     """Estimates from the windows, each value with its 1-sigma.
 
     Attributes:
-        height: h.
-        smoothing_m2: c.
+        gain: of all waves, see `SymmetricGain`.
+        incoherent: what is not common to both, the mean of its bands, see `Bands`.
+        division, division_sigma: see `find_division`.
         shift_m, slope: lag at ``middle_m``, and per m.
         lags_m: of every window, shape (windows,).
-            correlation: of the spectra, window by window, all waves together.
+        correlation: of the spectra, window by window, all waves together.
     """
 
-    height: float
-    height_sigma: float
-    smoothing_m2: float
-    smoothing_sigma: float
+    gain: SymmetricGain
+    incoherent: float
+    division: float
+    division_sigma: float
     shift_m: float
     shift_sigma: float
     slope: float
@@ -51,31 +58,18 @@ class Estimate:
 def estimate(windows: Windows) -> Estimate:
     """Return gain and lag of a run that lies within a quarter of the shortest wave.
 
-    Waves count by how little the run differs in them, windows less if they differ more than most.
+    Waves count by how little the two differ in them, windows less if they differ more than most.
     """
     p, q = windows.reference, windows.run
-    squares = np.square(windows.wave_number)
-    gain = np.array([0.5 * math.log(_energy(q) / _energy(p)), 0.0])
     weights = np.ones(windows.at_m.size)
     for _ in range(ITERATIONS):
-        model = np.exp(gain[0] + _footprint(gain[1], squares)) * p
-        rest = q - model
-        noise = (
-            weights @ np.square(np.abs(rest)) / weights.sum() + 1e-9 * np.square(np.abs(q)).mean()
-        )
-        weights = _weights(np.square(np.abs(rest)) @ (1.0 / noise))
-        bent = squares * (1.0 + 0.4 * abs(gain[1]) * squares)
-        normal = _normal(np.stack((model, bent * model)), rest, weights[:, None] / noise)
-        gain = gain + normal.solution()
-    lag = -2j * np.pi * windows.wave_number * model
-    each = _normal(lag[None], rest, weights[:, None] / noise)
-    return _summarise(windows, gain, normal, each, weights)
-
-
-def _footprint(smoothing: float, squares: FloatArray) -> FloatArray:
-    """Return the logarithm of the gain of an average over a length, or of its inverse."""
-    bend = math.copysign(0.2 * smoothing**2, smoothing)
-    return np.asarray(smoothing * squares + bend * np.square(squares))
+        gain = fit_bands(bands_of(windows, weights))
+        squares = np.square(windows.wave_number)
+        half = np.exp(0.5 * (gain.log_height + footprint(gain.smoothing_m2, squares)))
+        rest = np.square(np.abs(q / half - p * half))
+        noise = weights @ rest / weights.sum() + 1e-9 * np.abs(p * q).mean()
+        weights = _weights(rest @ (1.0 / noise))
+    return _summarise(windows, gain, _lags(windows, weights[:, None] / noise), weights)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,12 +100,17 @@ class _Normal:
         return np.asarray(UNDERSTATED * np.sqrt((count - 1) / count * spread))
 
 
-def _normal(columns: Spectra, rest: Spectra, weights: FloatArray) -> _Normal:
-    """Return the normal equations of ``rest`` by ``columns``, shape (n, windows, waves)."""
-    weighted = np.conj(columns) * weights
-    matrix = np.einsum("iwk,jwk->wij", weighted, columns).real
-    right = np.einsum("iwk,wk->wi", weighted, rest).real
-    return _Normal(matrix, right)
+def _lags(windows: Windows, weights: FloatArray) -> _Normal:
+    """Return the normal equations of the lag of every window; its waves count by ``weights``.
+
+    A lag d turns a wave by 2πkd. The geometric mean of both stands for its size, so that neither
+    is taken as free of errors.
+    """
+    p, q = windows.reference, windows.run
+    turns = 2.0 * np.pi * windows.wave_number
+    matrix = (weights * np.square(turns) * np.abs(p * q)).sum(axis=1)
+    right = -(weights * turns * (np.conj(p) * q).imag).sum(axis=1)
+    return _Normal(matrix[:, None, None], right[:, None])
 
 
 def _line(at: FloatArray, each: _Normal) -> _Normal:
@@ -127,40 +126,32 @@ def _weights(misfit: FloatArray) -> FloatArray:
     return np.asarray(np.minimum(1.0, usual / np.maximum(misfit, 1e-300)))
 
 
-def _energy(spectra: Spectra) -> float:
-    """Return the usual energy of a window."""
-    return max(float(np.median(np.square(np.abs(spectra)).sum(axis=1))), 1e-300)
-
-
 def _summarise(
-    windows: Windows, gain: FloatArray, normal: _Normal, each: _Normal, weights: FloatArray
+    windows: Windows, gain: SymmetricGain, each: _Normal, weights: FloatArray
 ) -> Estimate:
     """Return the estimate of the solved normal equations."""
-    p, q = windows.reference, windows.run
     middle = float(windows.at_m.mean())
+    bands = bands_of(windows, weights)
+    division, division_sigma = find_division(bands)
     line = _line(windows.at_m - middle, each)
     (shift, slope), (shift_sigma, slope_sigma) = line.solution(), line.sigma()
-    height = math.exp(gain[0])
-    gain_sigma = normal.sigma()
-    products = float((weights @ (np.conj(p) * q).real).sum())
-    energies = [float((weights @ np.square(np.abs(v))).sum()) for v in (p, q)]
     return Estimate(
-        height=height,
-        height_sigma=height * float(gain_sigma[0]),
-        smoothing_m2=float(gain[1]),
-        smoothing_sigma=float(gain_sigma[1]),
+        gain=gain,
+        incoherent=bands.mean_incoherent,
+        division=division,
+        division_sigma=division_sigma,
         shift_m=float(shift),
         shift_sigma=float(shift_sigma),
         slope=float(slope),
         slope_sigma=float(slope_sigma),
         middle_m=middle,
         lags_m=each.right[:, 0] / each.matrix[:, 0, 0],
-        correlation=products / math.sqrt(energies[0] * energies[1]),
+        correlation=_correlation(windows.reference, windows.run, weights),
     )
 
 
-def long_gain(windows: Windows) -> tuple[float, float]:
-    """Return the gain of all waves of ``windows`` alike, and its 1-sigma."""
-    p, q = windows.reference, windows.run
-    normal = _normal(p[None], q, np.ones(p.shape))
-    return float(normal.solution()[0]), float(normal.sigma()[0])
+def _correlation(p: Spectra, q: Spectra, weights: FloatArray) -> float:
+    """Return the correlation of all windows together."""
+    products = float((weights @ (np.conj(p) * q).real).sum())
+    energies = [float((weights @ np.square(np.abs(v))).sum()) for v in (p, q)]
+    return products / math.sqrt(energies[0] * energies[1])

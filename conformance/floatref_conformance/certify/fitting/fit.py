@@ -10,13 +10,16 @@ from floatref.measures.locating.lags import Line, follow_line
 from floatref.measures.locating.slopes import slope_of
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
-from floatref_conformance.certify.fitting.estimates import Estimate, estimate, long_gain
+from floatref_conformance.certify.fitting.estimates import Estimate, estimate
+from floatref_conformance.certify.fitting.long_waves import LongWaves, examine_long_waves
 from floatref_conformance.certify.fitting.spectra import Surface, Windows, windows_of
+from floatref_conformance.certify.fitting.symmetric import Bands, bands_of
 
 WINDOW_M, LONG_WINDOW_M = 12.8, 38.4
 LONGEST_M, SHORTEST_M = 6.5, 0.4
 """Waves by which gain and lag are estimated: above, the filters of profilers; below, footprints."""
-LONG_WAVES_M = 25.0, 8.0
+LONG_WAVES_M, BODY_WAVES_M = (25.0, 8.0), (25.0, 4.0)
+"""Waves that two lines on a road share, and those in which the body moves."""
 POINTS_PER_WAVE = 5
 """Of the coarser profile in the shortest wave that counts."""
 LEAST_WINDOWS, LEAST_LONG_WINDOWS, LEAST_WAVES = 6, 4, 4
@@ -41,7 +44,9 @@ class Fit:
         inverted: whether heights are upside down.
         smoothing_m2, smoothing_sigma: c of a gain of about exp(c·k²) at wave number k in
             cycles per m, apart from the scale of heights, and 1-sigma.
+        division, division_sigma: where what is not common lies: 1 in the run, -1 in the reference.
         long_percent, long_sigma: gain of waves of 8 to 25 m beyond the scale of heights.
+        long_waves: how far waves of 4 to 25 m are off in height and place; None if unknown.
         at_m, lag_m: middles of the windows on the reference's axis, and how much farther along
             the run lies there; shape (windows,).
         line: the straight line of that lag; None if the run was not found.
@@ -56,8 +61,11 @@ class Fit:
     inverted: bool = False
     smoothing_m2: float = math.nan
     smoothing_sigma: float = math.nan
+    division: float = math.nan
+    division_sigma: float = math.nan
     long_percent: float = math.nan
     long_sigma: float = math.nan
+    long_waves: LongWaves | None = None
     at_m: FloatArray = field(default_factory=lambda: np.zeros(0))
     lag_m: FloatArray = field(default_factory=lambda: np.zeros(0))
     line: Line | None = None
@@ -134,22 +142,34 @@ def _fit_windows(pair: _Pair, line: Line) -> Fit:
         fitted = estimate(windows)
         line = _correct_lag(line, fitted)
         last = windows, fitted
-        shortest = max(pair.shortest_m, math.sqrt(abs(fitted.smoothing_m2) / STEEPEST))
+        footprint = abs(fitted.gain.smoothing_m2)
+        shortest = max(pair.shortest_m, math.sqrt(footprint / STEEPEST))
     assert last is not None
     windows, fitted = last
-    long_gain, long_sigma = _long_gain(pair, line, fitted)
+    return _summarise(pair, line, windows, fitted)
+
+
+def _summarise(pair: _Pair, line: Line, windows: Windows, fitted: Estimate) -> Fit:
+    """Return the fit of the last round, and what the long waves add to it."""
+    long, body = _long_waves(pair, line)
+    gain = fitted.gain if long is None else fitted.gain.with_noise(long, fitted.incoherent)
+    height = math.exp(gain.log_height)
+    beyond = None if long is None else examine_long_waves(long, gain)
     return Fit(
         distance_percent=100.0 * (line.scale - 1.0),
         distance_sigma=100.0 * fitted.slope_sigma,
-        height_percent=100.0 * (fitted.height - 1.0),
-        height_sigma=100.0 * fitted.height_sigma,
+        height_percent=100.0 * (height - 1.0),
+        height_sigma=100.0 * height * gain.log_sigma,
         offset_m=line.lag_at(pair.stretch_m[0]),
         correlation=fitted.correlation,
         inverted=pair.sign < 0,
-        smoothing_m2=fitted.smoothing_m2,
-        smoothing_sigma=fitted.smoothing_sigma,
-        long_percent=long_gain,
-        long_sigma=long_sigma,
+        smoothing_m2=gain.smoothing_m2,
+        smoothing_sigma=gain.smoothing_sigma,
+        division=fitted.division,
+        division_sigma=fitted.division_sigma,
+        long_percent=math.nan if beyond is None else beyond.gain_percent,
+        long_sigma=math.nan if beyond is None else beyond.gain_sigma,
+        long_waves=None if body is None else examine_long_waves(body, gain),
         at_m=windows.at_m,
         lag_m=line.run_at(windows.at_m) - windows.at_m + fitted.lags_m,
         line=line,
@@ -162,10 +182,10 @@ def _correct_lag(line: Line, fitted: Estimate) -> Line:
     return Line(line.at_m, line.run_m + shift, line.scale + fitted.slope)
 
 
-def _long_gain(pair: _Pair, line: Line, fitted: Estimate) -> tuple[float, float]:
-    """Return by how many percent the long waves are taken higher than the rest, and 1-sigma."""
-    windows = pair.windows(line, LONG_WINDOW_M, *LONG_WAVES_M)
+def _long_waves(pair: _Pair, line: Line) -> tuple[Bands | None, Bands | None]:
+    """Return the bands of `LONG_WAVES_M` and of `BODY_WAVES_M`; None on a short section."""
+    windows = pair.windows(line, LONG_WINDOW_M, *BODY_WAVES_M)
     if windows.at_m.size < LEAST_LONG_WINDOWS:
-        return math.nan, math.nan
-    gain, sigma = long_gain(windows)
-    return 100.0 * (gain / fitted.height - 1.0), 100.0 * sigma / fitted.height
+        return None, None
+    equal = np.ones(windows.at_m.size)
+    return bands_of(windows.within(*LONG_WAVES_M), equal), bands_of(windows, equal)

@@ -15,11 +15,12 @@ from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.undoing import Compared, compare_track, find_unusable
 
 LEAST_MISSING_M = 1.0
-DISTANCE_PERCENT, HEIGHT_PERCENT = 0.15, 1.0
+DISTANCE_PERCENT, HEIGHT_PERCENT, LONG_WAVE_PERCENT = 0.15, 1.0, 5.0
 """Errors that count where a worksheet sets no limits."""
 LEAST_EXPLAINED = 0.1
 """An error within the limits is named only for a run below the limits, from this share on."""
 LEAST_LONG_PERCENT = 10.0
+SKEW = "height sensor and accelerometer not of one moment or place"
 CERTAIN = 3.0
 """Differences between waves count beyond this number of sigma."""
 
@@ -43,9 +44,10 @@ def causes(
 ) -> tuple[Cause, ...]:
     """Return why ``track`` of ``run`` does not agree with ``reference``; empty if nothing is wrong.
 
-    Ids are not-this-road, inverted, offset, distance, missing, height-scale, short-waves,
-    long-waves and noise. They are undone in this order, each after those before it, so that what
-    they explain adds up; the largest comes first. Both profiles are in m, on the section alone.
+    Ids are not-this-road, inverted, offset, distance, missing, height-scale, short-waves, skew,
+    long-waves, wander and noise. They are undone in this order, each after those before it, so that
+    what they explain adds up; the largest comes first. Both profiles are in m, on the section
+    alone.
     """
     before = compare_track(reference, run, track).correlation()
     if not fit.found:
@@ -60,7 +62,7 @@ def causes(
             found.append(Cause(suspect.id, suspect.text, explains))
         score = score if math.isnan(after) else after
     if poor:
-        found += _noise(score, lost)
+        found += _incoherent(score, lost, fit)
     return tuple(sorted(found, key=_rank))
 
 
@@ -119,6 +121,20 @@ def _heights(now: Compared, fit: Fit, limits: CertificationLimits) -> Iterator[_
         gain = math.exp(fit.smoothing_m2)
         text = f"waves of 1 m {_amount(gain)}: another footprint or filter"
         yield _Suspect("short-waves", text, now.scale_waves(fit.smoothing_m2), False)
+    yield from _long_waves(fit, limits)
+
+
+def _long_waves(fit: Fit, limits: CertificationLimits) -> Iterator[_Suspect]:
+    """Yield what is wrong with long waves: the vehicle moves in them, or a filter takes them."""
+    waves, limit = fit.long_waves, limits.long_wave_percent
+    bound = LONG_WAVE_PERCENT if limit is None else limit
+    if waves is not None and waves.error_percent - 2.0 * waves.error_sigma > bound:
+        which = f"waves of {waves.wave_m:.0f} m {waves.error_percent:.0f} % off in height and place"
+        if waves.at_longest:
+            yield _Suspect("long-waves", f"{which}: another filter, or {SKEW}", None, True)
+        else:
+            yield _Suspect("skew", f"{which}: {SKEW}", None, True)
+        return
     long = fit.long_percent
     if abs(long) > max(CERTAIN * fit.long_sigma, LEAST_LONG_PERCENT):
         text = f"waves of 8 to 25 m {_amount(1.0 + long / 100.0)}: another filter"
@@ -130,11 +146,18 @@ def _amount(gain: float) -> str:
     return f"{abs(100.0 * (gain - 1.0)):.0f} % too {'high' if gain > 1.0 else 'low'}"
 
 
-def _noise(score: float, lost: float) -> list[Cause]:
-    """Return the cause of the loss that remains; empty if it is small."""
+def _incoherent(score: float, lost: float, fit: Fit) -> list[Cause]:
+    """Return the cause of the loss that remains; empty if it is small.
+
+    It is another line on the road where the run surely does not hold all that is not common, nor
+    the reference all of it: two lines on a road have as much of it each.
+    """
     explains = _share(1.0 - score, lost)
     if not explains >= LEAST_EXPLAINED:
         return []
+    if abs(fit.division) + 2.0 * fit.division_sigma < 1.0:
+        text = f"another line on the road: correlation {score:.3f} with all else undone"
+        return [Cause("wander", text, explains)]
     return [Cause("noise", f"noise: correlation {score:.3f} with all else undone", explains)]
 
 

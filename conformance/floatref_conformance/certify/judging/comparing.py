@@ -13,10 +13,13 @@ from math import nan
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures import agreement, iri, on_common_grid
+from floatref.measures import agreement, iri, iri_trace, on_common_grid
 from floatref.measures.locating.placing import MAX_OFFSET_M
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
+
+BLOCKS = 12
+"""Stretches of the section whose IRI is compared, to estimate the scatter of its ratio."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,7 @@ class Comparison:
         accuracy, offset_m: as `floatref compare` gives them.
         iri_m_per_km, reference_iri_m_per_km: of both, on the points that both cover.
         flagged_m, missing_m: length of the section without a valid point, and without elevation.
+        bias_sigma: 1-sigma of ``bias_percent``, by what stretches of the section differ by.
     """
 
     accuracy: float
@@ -36,6 +40,7 @@ class Comparison:
     flagged_m: float
     missing_m: float
     error: str = ""
+    bias_sigma: float = nan
 
     @property
     def bias_percent(self) -> float:
@@ -93,9 +98,27 @@ def _compare_track(expected: Profile, found: Profile, name: str, outside: int) -
     try:
         agreed = agreement(p, q, interval, "iri", MAX_OFFSET_M)
         roughness = iri(q, interval), iri(p, interval)
+        sigma = 100.0 * ratio_sigma(iri_trace(p, interval), iri_trace(q, interval))
     except InputError as error:
         return Comparison(nan, nan, nan, nan, flagged_m, missing_m, f"track {name}: {error}")
-    return Comparison(agreed.cross_correlation, agreed.offset_m, *roughness, flagged_m, missing_m)
+    return Comparison(
+        agreed.cross_correlation, agreed.offset_m, *roughness, flagged_m, missing_m, "", sigma
+    )
+
+
+def ratio_sigma(expected: FloatArray, found: FloatArray) -> float:
+    """Return the 1-sigma of the ratio of the mean sizes of two traces, shape (n,) both.
+
+    It is the scatter of `BLOCKS` stretches about their common ratio, which hardly depends on which
+    of the two is divided by the other. NaN if the first one is zero.
+    """
+    known = np.isfinite(expected) & np.isfinite(found)
+    parts = [np.array_split(np.abs(trace[known]), BLOCKS) for trace in (expected, found)]
+    p, q = (np.array([part.sum() for part in each]) for each in parts)
+    if not p.sum() > 0:
+        return nan
+    rest = q - p * (q.sum() / p.sum())
+    return float(np.sqrt(BLOCKS / (BLOCKS - 1) * np.square(rest).sum()) / p.sum())
 
 
 def _pair(first: Profile, second: Profile, name: str) -> float:

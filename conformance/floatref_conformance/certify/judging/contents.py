@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from math import nan
 
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
@@ -76,6 +77,9 @@ class RunTrack:
         distance_percent, distance_sigma: how much longer the run takes the section, and 1-sigma.
         height_percent, height_sigma: how much higher it takes the road, and 1-sigma.
         flagged_m: length of its points within the section that are not valid, or missing.
+        long_percent, long_sigma: how far waves of 4 to 25 m are off in height and place, in the
+            band that is farthest off, and 1-sigma.
+        bias_sigma: 1-sigma of bias_percent; 0 if it was not estimated.
         causes: why it does not agree; empty if it does.
         missing_m: length within the section for which it has no elevation; a part of flagged_m.
     """
@@ -93,6 +97,9 @@ class RunTrack:
     flagged_m: float
     causes: tuple[Cause, ...] = ()
     missing_m: float = 0.0
+    long_percent: float = nan
+    long_sigma: float = nan
+    bias_sigma: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

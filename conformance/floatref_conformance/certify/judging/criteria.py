@@ -19,7 +19,12 @@ from floatref_conformance.certify.judging.reasons import (
     name_unused,
     report_value,
 )
-from floatref_conformance.certify.judging.scales import judge_distance, judge_height
+from floatref_conformance.certify.judging.scales import (
+    judge_distance,
+    judge_height,
+    judge_long_waves,
+    judge_mean_height,
+)
 from floatref_conformance.checks.verdict import Verdict
 
 MISSING_PERCENT = 2.0
@@ -46,12 +51,14 @@ def judge_section(
     used = [run for run in runs if not run.error]
     made = [_number(runs, limits), _coverage(truth, used), _flagged_length(truth, used)]
     made += judge_distance(used, limits)
+    made.append(judge_mean_height(used, limits))
     for name in pairs:
         made += [
             judge_repeatability(name, runs, pairs[name], limits),
             judge_accuracy(name, used, limits),
             judge_bias(name, used, limits),
             judge_height(name, used, limits),
+            judge_long_waves(name, used, limits),
         ]
     return tuple(made)
 

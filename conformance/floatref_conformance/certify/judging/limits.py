@@ -16,6 +16,7 @@ class CertificationLimits:
         distance_percent: error of the distance, in magnitude.
         height_percent: error of the scale of heights, in magnitude.
         iri_bias_percent: mean error of the IRI against the reference's, in magnitude.
+        long_wave_percent: error of waves of 4 to 25 m, beyond the scale of heights.
         quiescent_m_per_km, bounce_m_per_km: IRI of the stationary tests.
     """
 
@@ -25,6 +26,7 @@ class CertificationLimits:
     distance_percent: float | None = 0.15
     height_percent: float | None = 1.0
     iri_bias_percent: float | None = None
+    long_wave_percent: float | None = 5.0
     quiescent_m_per_km: float = 0.047
     bounce_m_per_km: float = 0.126
 

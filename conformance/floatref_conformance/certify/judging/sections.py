@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
-from math import isnan
+from math import isnan, nan
 
 import numpy as np
 
@@ -190,6 +190,9 @@ def _track(
         height_sigma=estimate.height_sigma,
         flagged_m=found.flagged_m,
         missing_m=found.missing_m,
+        long_percent=nan if estimate.long_waves is None else estimate.long_waves.error_percent,
+        long_sigma=nan if estimate.long_waves is None else estimate.long_waves.error_sigma,
+        bias_sigma=found.bias_sigma,
     )
     if isnan(found.accuracy) or agrees(track, limits):
         return track

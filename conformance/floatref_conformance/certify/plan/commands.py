@@ -9,6 +9,9 @@ from dataclasses import dataclass
 COMMAND = (sys.executable, "-P", "-m", "floatref")
 """-P: a folder called floatref in the current folder is not taken for the package."""
 
+LONGEST_S = 24 * 3600.0
+"""Longest time in s of one command; one that takes longer hangs."""
+
 
 class Stopped(Exception):
     """The command is not run any more."""
@@ -46,7 +49,10 @@ class Commands:
         """Run ``floatref WORDS`` to its end; Stopped once the context was left."""
         process = self._start(words)
         try:
-            output, text = process.communicate()
+            output, text = process.communicate(timeout=LONGEST_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            return Answer("", f"floatref was ended: not done after {LONGEST_S / 3600:g} h")
         finally:
             with self._lock:
                 self._running.discard(process)

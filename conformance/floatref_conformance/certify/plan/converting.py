@@ -5,7 +5,6 @@ judge itself reads no other format and has no pipeline.
 """
 
 import json
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, replace
@@ -15,6 +14,7 @@ import numpy as np
 
 from floatref.errors import FloatrefError
 from floatref.files import fingerprint_native, read_profile
+from floatref.files.scratch import scratch_folder
 from floatref.files.sources import open_bytes
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.plan.commands import Commands
@@ -50,12 +50,12 @@ def convert_all(
     gone at the end.
     """
     with (
-        tempfile.TemporaryDirectory(prefix="floatref-certify-") as folder,
+        scratch_folder("conversion") as folder,
         ThreadPoolExecutor(AT_ONCE) as pool,
         Commands() as commands,
     ):
         work = {
-            pool.submit(_convert, path, processing, Path(folder, str(index)), commands): path
+            pool.submit(_convert, path, processing, folder / str(index), commands): path
             for index, path in enumerate(dict.fromkeys(paths))
         }
         for future in as_completed(work):

@@ -1,8 +1,10 @@
 """Which files are runs: paths, directories of runs and patterns, and unique names for them."""
 
 import glob
+import os
 import re
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 from pathlib import Path
 
 from floatref.errors import InputError
@@ -15,6 +17,8 @@ BESIDE = (
     *(".html", ".jpg", ".json", ".md", ".pdf", ".png", ".toml", ".xlsx", ".yaml", ".zip"),
 )
 """Suffixes in a directory of runs that are no run: what belongs to one, maps, notes, pictures."""
+MOST = 100_000
+"""Largest number of names below a folder that is searched: that takes about a second."""
 PATTERN = re.compile(r"[*?\[]")
 CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]+")
 
@@ -67,13 +71,36 @@ def names_of(paths: Sequence[Path]) -> tuple[str, ...]:
 
 def _runs(text: str, folder: Path) -> Iterator[Path]:
     if PATTERN.search(text) and not (folder / text).exists():
+        if "**" in text:
+            _refuse_vast(_before_pattern(folder / text), text)
         matches = sorted(glob.glob(text, root_dir=folder, recursive=True), key=natural)
         if not matches:
             raise InputError(f"{folder / text}: no file matches this pattern; correct it")
         for match in matches:
-            yield from _within(check_exists(match, folder))
+            path = check_exists(match, folder)
+            _refuse_vast(path, match)
+            yield from _within(path)
     else:
-        yield from _within(check_exists(text, folder))
+        path = check_exists(text, folder)
+        _refuse_vast(path, text)
+        yield from _within(path)
+
+
+def _before_pattern(path: Path) -> Path:
+    """Return the folder in ``path`` before the first part with a pattern's character."""
+    return Path(*takewhile(lambda part: not PATTERN.search(part), path.parts))
+
+
+def _refuse_vast(folder: Path, text: str) -> None:
+    """Raise InputError if more than `MOST` names lie below ``folder``, which ``text`` means."""
+    count = 0
+    for _, folders, files in os.walk(folder):
+        count += len(folders) + len(files)
+        if count > MOST:
+            raise InputError(
+                f"{text}: more than {MOST} files and folders lie below {folder}; name a folder "
+                "that holds the runs alone"
+            )
 
 
 def _within(path: Path) -> Iterator[Path]:

@@ -6,7 +6,6 @@ correlation and IRI of the worksheet again.
 
 import os
 import re
-import secrets
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -14,6 +13,7 @@ from pathlib import Path
 
 from floatref.errors import InputError
 from floatref.files import write_profile
+from floatref.files.owners import own_name, sweep_once
 from floatref_conformance.certify.judging.contents import Worksheet
 
 DOCUMENT = "worksheet.json"
@@ -97,7 +97,8 @@ def _write_profiles(worksheet: Worksheet, folder: Path) -> None:
 def _replace_folder(folder: Path) -> Iterator[Path]:
     """Yield a new folder beside ``folder``; give it that name when all went well."""
     target = Path(os.path.realpath(folder))
-    beside = target.with_name(f".floatref-{secrets.token_hex(6)}")
+    sweep_once(target.parent)
+    beside = target.with_name(own_name())
     try:
         beside.mkdir()
         yield beside

@@ -185,6 +185,7 @@ def limits_in_words(limits: CertificationLimits) -> tuple[tuple[str, str], ...]:
         ("Distance error", _at_most(limits.distance_percent, "%")),
         ("Height scale error", _at_most(limits.height_percent, "%")),
         ("IRI bias", _at_most(limits.iri_bias_percent, "%")),
+        ("Long wave error", _at_most(limits.long_wave_percent, "%")),
         ("Quiescent IRI", _at_most(limits.quiescent_m_per_km, "m/km")),
         ("Bounce IRI", _at_most(limits.bounce_m_per_km, "m/km")),
     )

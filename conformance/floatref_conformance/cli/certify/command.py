@@ -55,6 +55,7 @@ CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)
 @click.option("--max-distance-error", "distance_percent", metavar="PERCENT", type=OPTIONAL)
 @click.option("--max-height-error", "height_percent", metavar="PERCENT", type=OPTIONAL)
 @click.option("--max-iri-bias", "iri_bias_percent", metavar="PERCENT", type=OPTIONAL)
+@click.option("--max-long-wave-error", "long_wave_percent", metavar="PERCENT", type=OPTIONAL)
 @click.option("--max-quiescent", "quiescent_m_per_km", metavar="M/KM", type=Limit())
 @click.option("--max-bounce", "bounce_m_per_km", metavar="M/KM", type=Limit())
 @click.option(
@@ -88,8 +89,8 @@ def certify(
 
     RUN is a profile of any format, a recording, which is processed on the way, a directory of
     them, or a pattern. Runs that start elsewhere, go the other way or are in other units are
-    recognised. --max-distance-error, --max-height-error and --max-iri-bias also take the word
-    none: then the error is reported and not judged.
+    recognised. --max-distance-error, --max-height-error, --max-iri-bias and --max-long-wave-error
+    also take the word none: then the error is reported and not judged.
 
     Exit code 0: PASS; 1: FAIL; 2: wrong usage, or a reference or runs that cannot be used; 3: the
     suite itself is at fault, no worksheet; 4: INCOMPLETE, such as too few runs.
@@ -136,14 +137,10 @@ def _certify_with_progress(
     from rich.progress import Progress
 
     from floatref_conformance.certify.certifying import certify as certified
-    from floatref_conformance.cli.following import end_like_an_interrupt
 
     console = Console(stderr=True)
     shown = console.is_terminal
-    with (
-        end_like_an_interrupt(),
-        Progress(console=console, transient=True, disable=not shown) as bar,
-    ):
+    with Progress(console=console, transient=True, disable=not shown) as bar:
         task = bar.add_task("", total=1.0)
         return certified(
             plan,

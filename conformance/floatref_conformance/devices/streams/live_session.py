@@ -43,11 +43,13 @@ class LiveCommand:
         argv: the program and its arguments, started without a shell.
         folder: the folder in which it is started.
         limit_s: time in s for an answer, whatever the device does.
+        variables: names of variables of the environment that it gets beside the usual ones.
     """
 
     argv: Sequence[str]
     folder: Path
     limit_s: float
+    variables: tuple[str, ...] = ()
 
 
 class LiveSession:
@@ -63,7 +65,7 @@ class LiveSession:
         self._asked: deque[tuple[int, float]] = deque()
         self._number = 0
         self._has_finished = False
-        self._child: Child = start(command.argv, command.folder, MOST)
+        self._child: Child = start(command.argv, command.folder, command.variables, MOST)
         with self._step():
             self._child.send(write(hello))
             self.transcript = Transcript(self._read_started())

@@ -14,6 +14,9 @@ from floatref.errors import InputError
 LOCK, WORKING = ".lock", ".working"
 """Locked by the command while it runs, and by every task while it works."""
 
+LOCKED_S = 60.0
+"""Longest time in s that a task waits for the lock of another program."""
+
 OURS = frozenset({PROFILES, RECORDS, LOCK, WORKING, "summary.csv", "summary.parquet", "batch.json"})
 BESIDE = ".floatref-*"
 """Pattern of the names of incomplete files."""
@@ -44,8 +47,29 @@ def prepare_folder(out: Path, resume: bool, patience_s: float = 60.0) -> Iterato
 @contextmanager
 def mark_working(out: Path) -> Iterator[None]:
     """Mark, for other commands, that a task works in ``out``; many may do so at once."""
-    with _lock(out / WORKING, shared=True):
+    with _lock(out / WORKING, shared=True) as shared:
+        if not shared:
+            raise InputError(
+                f"{out / WORKING}: locked by another program for {LOCKED_S:g} s; end that"
+            )
         yield
+
+
+def is_worked_in(out: Path) -> bool:
+    """Return whether a task works in ``out``; True also where the file system has no locks."""
+    try:
+        import fcntl
+
+        handle = os.open(out / WORKING, os.O_RDWR | os.O_CLOEXEC)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        finally:
+            os.close(handle)
+    except FileNotFoundError:
+        return False
+    except (ImportError, OSError):
+        return True
+    return False
 
 
 def sweep(out: Path) -> None:
@@ -112,7 +136,7 @@ def _lock(path: Path, shared: bool = False) -> Iterator[bool]:
     """Lock the file ``path`` if it is free, and yield whether it was.
 
     A lock ends with its process in any case. Where the file system has no locks, every
-    file is free.
+    file is free. A lock that is ``shared`` is waited for: others try the lock for a moment.
     """
     try:
         import fcntl
@@ -121,8 +145,11 @@ def _lock(path: Path, shared: bool = False) -> Iterator[bool]:
         return
     handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
     try:
-        kind = fcntl.LOCK_SH if shared else fcntl.LOCK_EX | fcntl.LOCK_NB
-        yield _free(lambda: fcntl.flock(handle, kind))
+        kind = (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB
+        end_s = monotonic() + (LOCKED_S if shared else 0.0)
+        while not (free := _free(lambda: fcntl.flock(handle, kind))) and monotonic() < end_s:
+            sleep(0.01)
+        yield free
     finally:
         os.close(handle)
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.batch.jobs.job import PROFILES
+from floatref.batch.results.cells import write_cell
 from floatref.batch.results.record import Record, Row
 from floatref.errors import missing_extra
 from floatref.files.atomic import replace_file
@@ -18,7 +19,7 @@ from floatref.measures import rate_iri
 from floatref.measures.ride.segment_measures import MEASURES
 
 CSV, PARQUET = "summary.csv", "summary.parquet"
-"""Names of the two files; they hold the same values."""
+"""Names of the two files; they hold the same values, texts in CSV as `cells` writes them."""
 COLUMNS: Mapping[str, type] = {
     "file": str,
     "name": str,
@@ -77,7 +78,8 @@ def figures_of(row: Row) -> dict[str, Any]:
 def write_summary(records: Iterable[Record], out: Path, measures: bool = False) -> None:
     """Write `summary.csv` and `summary.parquet` of ``records`` into the folder ``out``.
 
-    With ``measures`` the columns of the measures of ride follow the others.
+    With ``measures`` the columns of the measures of ride follow the others. Texts are written to
+    the first by `write_cell`.
     A file that failed is one row with its error. Both files are written completely or not at all,
     in bounded memory. Raises InputError where pyarrow is missing, or if they cannot be written.
     """
@@ -96,8 +98,13 @@ def write_summary(records: Iterable[Record], out: Path, measures: bool = False) 
         sheet.writeheader()
         groups = stack.enter_context(parquet.ParquetWriter(table, schema, compression="zstd"))
         while batch := list(islice(lines, TOGETHER)):
-            sheet.writerows(batch)
+            sheet.writerows(map(_as_cells, batch))
             groups.write_table(pa.Table.from_pylist(batch, schema))
+
+
+def _as_cells(line: Mapping[str, Any]) -> dict[str, Any]:
+    """Return ``line`` with texts that no spreadsheet takes for formulas."""
+    return {k: write_cell(v) if isinstance(v, str) else v for k, v in line.items()}
 
 
 def _arrow() -> tuple[Any, Any]:

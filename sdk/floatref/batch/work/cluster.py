@@ -3,23 +3,33 @@
 import logging
 import warnings
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from floatref.batch.work.encryption import check_encrypted
+from floatref.batch.work.held_signals import hold_signals
+from floatref.batch.work.limited_calls import call_within
 from floatref.errors import InputError, missing_extra
 from floatref.files.atomic import replace_file
+from floatref.files.scratch import scratch_folder
 from floatref.version import __version__
 
 if TYPE_CHECKING:
-    from distributed import Client
+    from distributed import Client, LocalCluster
 
 ANSWER_S = 10.0
 """Longest time in s until a scheduler answers."""
 
 WORKERS_S = 30.0
 """Longest time in s until a cluster has its first worker."""
+
+START_S = 300.0
+"""Longest time in s until the processes of this machine are ready to work."""
+
+CLOSE_S = 60.0
+"""Longest time in s until they have ended; those that have not then end with this process."""
 
 LOCAL = {
     # One file per worker and no other waiting there: the file of a dead worker is the cause.
@@ -44,22 +54,32 @@ LOGGERS = ("distributed", "tornado", "asyncio", "bokeh")
 def check_installed() -> None:
     """Raise InputError now if a package for a batch is missing."""
     try:
-        import dask  # noqa: F401  # Imported to see whether it is there, as the next two.
+        import cryptography  # noqa: F401  # Imported to see whether it is there, as the next three.
+        import dask  # noqa: F401
         import distributed  # noqa: F401
         import pyarrow  # noqa: F401
     except ImportError as error:
-        raise missing_extra("a batch needs Dask and pyarrow", "batch") from error
+        raise missing_extra("a batch needs Dask, cryptography and pyarrow", "batch") from error
 
 
 @contextmanager
-def connect(out: Path, jobs: int | None = None, address: str | None = None) -> Iterator["Client"]:
+def connect(
+    out: Path,
+    jobs: int | None = None,
+    address: str | None = None,
+    unencrypted: bool = False,
+) -> Iterator["Client"]:
     """Yield a client of the cluster at ``address``, or of ``jobs`` processes of this machine.
 
-    Without both there is one process for each processor. Raises InputError if no scheduler
-    answers, if it has no workers, if one of them has another version of floatref, or does not
-    see the folder ``out``. The local processes end with the context.
+    Without both there is one process for each processor. Local processes speak TLS with a secret
+    that only they have, and end with the context. Raises InputError for an ``address`` beyond this
+    machine without TLS, unless that is allowed as ``unencrypted``, if no scheduler answers, if it
+    has no workers, if one of them has another version of floatref, or does not see the folder
+    ``out``.
     """
     check_installed()
+    if address is not None:
+        check_encrypted(address, unencrypted)
     with ExitStack() as stack:
         stack.enter_context(_quiet())
         client = stack.enter_context(_local(jobs) if address is None else _find_cluster(address))
@@ -71,7 +91,7 @@ def connect(out: Path, jobs: int | None = None, address: str | None = None) -> I
 def count_workers(client: "Client") -> int:
     """Return the number of workers; 0 if the scheduler does not answer."""
     try:
-        return len(client.nthreads())
+        return len(call_within(client.nthreads, WORKERS_S))
     except (OSError, RuntimeError, TimeoutError):
         return 0
 
@@ -91,29 +111,45 @@ def _quiet() -> Iterator[None]:
 @contextmanager
 def _local(jobs: int | None) -> Iterator["Client"]:
     import dask
-    from dask.system import CPU_COUNT
-    from distributed import Client, LocalCluster
+    from distributed import Client
 
     with ExitStack() as stack:
         # Temporary files of a killed worker are removed with the command.
-        scratch = stack.enter_context(
-            TemporaryDirectory(prefix="floatref-batch-", ignore_cleanup_errors=True)
-        )
+        scratch = str(stack.enter_context(scratch_folder("batch")))
         stack.enter_context(dask.config.set({**LOCAL, "temporary-directory": scratch}))
         try:
-            cluster = LocalCluster(
-                n_workers=jobs or CPU_COUNT,
-                processes=True,
-                threads_per_worker=1,
-                dashboard_address=None,
-                env=dict.fromkeys(TEMPORARY, scratch),
-                silence_logs=logging.CRITICAL + 1,
-            )
-            stack.callback(cluster.close)
-            client = stack.enter_context(Client(cluster))
+            with hold_signals():
+                cluster = _start(jobs, scratch)
+                stack.callback(_close, cluster)
+                client = stack.enter_context(Client(cluster))
+                stack.callback(_close, client)
         except (OSError, RuntimeError, TimeoutError) as error:
             raise InputError(f"no workers can be started here ({error}); try --jobs 1") from error
         yield client
+
+
+def _start(jobs: int | None, scratch: str) -> "LocalCluster":
+    from dask.system import CPU_COUNT
+    from distributed import LocalCluster, Security
+
+    return LocalCluster(
+        n_workers=jobs or CPU_COUNT,
+        processes=True,
+        threads_per_worker=1,
+        dashboard_address=None,
+        protocol="tls://",
+        # Without it every program of this machine could run its code in a worker.
+        security=Security.temporary(),
+        death_timeout=START_S,
+        env=dict.fromkeys(TEMPORARY, scratch),
+        silence_logs=logging.CRITICAL + 1,
+    )
+
+
+def _close(ending: "Client | LocalCluster") -> None:
+    """Close a client or a cluster, with a limit: a worker may wait for what does not come."""
+    with hold_signals(), suppress(TimeoutError):
+        ending.close(timeout=CLOSE_S)
 
 
 @contextmanager
@@ -127,8 +163,16 @@ def _find_cluster(address: str) -> Iterator["Client"]:
             f"cluster {address}: no scheduler answers there ({error}); start one, or leave "
             "--cluster out"
         ) from error
-    with client:
+    except TypeError as error:
+        # What Dask raises for an address with TLS where its configuration names no certificate.
+        raise InputError(
+            f"cluster {address}: speaks TLS, and no certificate is set here; set "
+            "DASK_DISTRIBUTED__COMM__TLS__CA_FILE, __CLIENT__CERT and __CLIENT__KEY"
+        ) from error
+    try:
         yield client
+    finally:
+        _close(client)
 
 
 def _check_workers(client: "Client", out: Path) -> None:
@@ -141,7 +185,7 @@ def _check_workers(client: "Client", out: Path) -> None:
     with replace_file(out / ".cluster", overwrite=True) as token:
         token.touch()
         _check_answer(f"scheduler {address}", _answer_of_scheduler(client), out, False)
-        for worker, answer in client.run(_hello, str(token), on_error="return").items():
+        for worker, answer in _answers_of_workers(client, address, str(token)).items():
             _check_answer(f"worker {worker}", answer, out, True)
     (out / ".cluster").unlink(missing_ok=True)
 
@@ -149,9 +193,20 @@ def _check_workers(client: "Client", out: Path) -> None:
 def _answer_of_scheduler(client: "Client") -> Any:
     """Return the scheduler's answer; it must unpack the work before it can pass it on."""
     try:
-        return client.run_on_scheduler(_hello)
+        return call_within(partial(client.run_on_scheduler, _hello), START_S)
     except Exception as error:
         return error
+
+
+def _answers_of_workers(client: "Client", address: str, token: str) -> dict[str, Any]:
+    """Return the answer of every worker; InputError if one of them does not answer."""
+    ask = partial(client.run, _hello, token, on_error="return")
+    try:
+        return call_within(ask, START_S)
+    except TimeoutError as error:
+        raise InputError(
+            f"cluster {address}: not all workers answer within {START_S:g} s; end those that hang"
+        ) from error
 
 
 def _hello(token: str = "") -> tuple[str, bool]:

@@ -5,11 +5,13 @@ from contextlib import suppress
 from dataclasses import replace
 from secrets import token_hex
 from shutil import rmtree
+from threading import Event
 from typing import TYPE_CHECKING
 
 from floatref.batch.jobs.job import Job
 from floatref.batch.results.folder import mark_working
 from floatref.batch.results.record import Record
+from floatref.batch.work.limited_calls import call_until
 from floatref.errors import FloatrefError
 
 if TYPE_CHECKING:
@@ -22,29 +24,37 @@ KILLED = (
     "the worker ended {} times while it processed this file alone (out of memory?); give workers "
     "more memory, or cut the run into shorter ones"
 )
+STEP_S = 0.05
+"""Time in s between two looks at what is done."""
 LOST = "the cluster was lost before this file was done; go on with --resume"
 
 
 def run_jobs(
-    client: "Client", jobs: Sequence[Job], resume: bool, task: Task | None = None
+    client: "Client",
+    jobs: Sequence[Job],
+    resume: bool,
+    task: Task | None = None,
+    lost: Event | None = None,
 ) -> Iterator[tuple[Job, Record]]:
     """Yield every one of ``jobs`` exactly once with its record, as they are done.
 
     A file whose worker died is tried on other workers, and at last alone, so that it does not fail
-    through another file. ``task`` is `floatref.batch.work.task.run_job` unless given.
+    through another file. ``task`` is `floatref.batch.work.task.run_job` unless given. Once the
+    event ``lost`` is set, files that are not done have a record that says so.
     """
-    chosen = task or _run_job
+    chosen, lost = task or _run_job, lost or Event()
     ordered = sorted(jobs, key=lambda job: -job.size_bytes)
     suspects = []
-    for job, future in _yield_done(client, ordered, resume, chosen):
-        if _worker_died(future):
+    for job, future in _yield_done(client, ordered, resume, chosen, lost):
+        if future is not None and _worker_died(future):
             suspects.append(job)
         else:
-            yield job, _record(job, future, resume)
-        future.release()
+            yield job, _record(job, future, resume, lost)
+        if future is not None:
+            future.release()
     for suspect in suspects:
-        for job, future in _yield_done(client, [suspect], resume, chosen):
-            yield job, _record(job, future, resume)
+        for job, future in _yield_done(client, [suspect], resume, chosen, lost):
+            yield job, _record(job, future, resume, lost)
 
 
 def _run_job(job: Job, resume: bool) -> Record:
@@ -60,9 +70,12 @@ def _mark(job: Job, resume: bool, task: Task) -> Record:
 
 
 def _yield_done(
-    client: "Client", jobs: Sequence[Job], resume: bool, task: Task
-) -> Iterator[tuple[Job, "Future[Record]"]]:
-    """Yield every job with its future, in the order in which they are done."""
+    client: "Client", jobs: Sequence[Job], resume: bool, task: Task, lost: Event
+) -> Iterator[tuple[Job, "Future[Record] | None"]]:
+    """Yield every job with its future, in the order in which they are done.
+
+    Once ``lost`` is set, each remaining job is yielded with None.
+    """
     from distributed import as_completed
 
     run = token_hex(8)
@@ -71,8 +84,13 @@ def _yield_done(
     futures = client.map(_mark, jobs, key=list(keys), pure=False, resume=resume, task=task)
     waiting = as_completed(futures)
     del futures
-    for future in waiting:
-        yield keys[future.key], future
+    while not waiting.is_empty():
+        if waiting.has_ready():
+            future = next(waiting)
+            yield keys.pop(future.key), future
+        elif lost.wait(STEP_S):
+            yield from ((job, None) for job in keys.values())
+            return
 
 
 def _worker_died(future: "Future[Record]") -> bool:
@@ -81,11 +99,15 @@ def _worker_died(future: "Future[Record]") -> bool:
     return future.status == "error" and isinstance(future.exception(), KilledWorker)
 
 
-def _record(job: Job, future: "Future[Record]", resume: bool) -> Record:
+def _record(
+    job: Job, future: "Future[Record] | None", resume: bool, lost: Event | None = None
+) -> Record:
     """Return the record of the task, or a record of the reason why there is no result."""
+    if future is None:
+        return _read_written(job, resume) or _fail(job, LOST)
     # A result that was lost with its worker is calculated again, and waited for here.
     with suppress(Exception):
-        return future.result()
+        return call_until(future.result, (lost or Event()).is_set)
     if _worker_died(future):
         return _give_up(job, KILLED.format(future.exception().args[2] + 1))
     if future.status == "error":

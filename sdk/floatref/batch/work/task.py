@@ -136,7 +136,7 @@ def _work(job: Job) -> Record:
     try:
         record = watch.complete(_make_profile(job), job)
         write_record(record, job.record)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         record = watch.complete(record_failure(job, _reason(error)), job)
         _remove(job.profile)
         with suppress(FloatrefError, OSError):
@@ -174,7 +174,7 @@ def _make_profile(job: Job) -> Record:
     )
 
 
-def _reason(error: Exception) -> str:
+def _reason(error: BaseException) -> str:
     """Return ``error`` in one line."""
     text = " ".join(str(error).split())
     if isinstance(error, FloatrefError):

@@ -1,4 +1,4 @@
-"""A limit on the time without any worker."""
+"""A limit on the time without any worker, or without any work."""
 
 import os
 import sys
@@ -14,31 +14,42 @@ if TYPE_CHECKING:
     from distributed import Client
 
 PATIENCE_S = 600.0
-"""Longest time in s that a cluster may be without a worker."""
+"""Longest time in s that a cluster may be without a worker, or without a task that is done."""
 
 OFTEN_S = 5.0
 """Time in s between two checks of the workers."""
 
 
 @contextmanager
-def patient(client: "Client", patience_s: float = PATIENCE_S) -> Iterator[None]:
-    """Cancel all tasks of ``client`` once there was no worker for ``patience_s`` seconds."""
-    over = Event()
-    watch = Thread(target=_watch, args=(client, patience_s, over.wait), daemon=True)
+def patient(
+    client: "Client",
+    patience_s: float = PATIENCE_S,
+    is_busy: Callable[[], bool] = lambda: True,
+) -> Iterator[Event]:
+    """Yield an event that is set once there was no worker for ``patience_s`` seconds.
+
+    The same holds if ``is_busy``, which says whether a task is being done, was false for that time.
+    All tasks of ``client`` are cancelled then.
+    """
+    over, lost = Event(), Event()
+    watch = Thread(target=_watch, args=(client, patience_s, is_busy, over, lost), daemon=True)
     watch.start()
     try:
-        yield
+        yield lost
     finally:
         over.set()
         watch.join(timeout=OFTEN_S)
 
 
-def _watch(client: "Client", patience_s: float, over: Callable[[float], bool]) -> None:
+def _watch(
+    client: "Client", patience_s: float, is_busy: Callable[[], bool], over: Event, lost: Event
+) -> None:
     seen_s = monotonic()
-    while not over(min(OFTEN_S, patience_s)):
-        if count_workers(client):
+    while not over.wait(min(OFTEN_S, patience_s)):
+        if count_workers(client) and is_busy():
             seen_s = monotonic()
         elif monotonic() - seen_s > patience_s:
+            lost.set()
             drop_all(client)
 
 

@@ -18,7 +18,7 @@ static void set_along(const fr_pitch *pitch, const pt_arrays *a, int32_t count)
 }
 
 /* Road and reading in the band, by the pitch so far. */
-static void set_road(const fr_pitch *pitch, const pt_arrays *a, int32_t count)
+static void set_road(const fr_pitch *pitch, pt_arrays *a, int32_t count)
 {
     for (int32_t k = 0; k < count; k++) {
         a->road[k] = a->force[k] + a->along[k] * a->pitch[k];

@@ -21,6 +21,7 @@ from floatref.cli.printing import (
     percent,
     print_table,
 )
+from floatref.errors import one_line
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -141,7 +142,7 @@ def tell_remarks(passed_over: Sequence[Path], no_longer_given: Sequence[str]) ->
 def tell_warnings(tally: Tally) -> None:
     """Print the first warnings of files, and how many more there are."""
     for name, line in tally.first_warnings:
-        click.echo(f"Warning: {name}: {line}", err=True)
+        click.echo(f"Warning: {one_line(name)}: {line}", err=True)
     more = tally.warnings - len(tally.first_warnings)
     if more:
         click.echo(f"Warning: {more} more warnings of files are in the summary", err=True)
@@ -150,7 +151,7 @@ def tell_warnings(tally: Tally) -> None:
 def count_names(names: Sequence[str]) -> str:
     """Return the number of ``names``, and the first of them."""
     more = ", ..." if len(names) > NAMES else ""
-    return f"{_files(len(names))} ({', '.join(names[:NAMES])}{more})"
+    return f"{_files(len(names))} ({', '.join(map(one_line, names[:NAMES]))}{more})"
 
 
 def _print_counts(document: Mapping[str, Any]) -> None:
@@ -187,8 +188,8 @@ def _files(count: int) -> str:
 def _print_roughest(tally: Tally) -> None:
     rows = [
         [
-            name,
-            marked(row.track, row.counted_share < 1.0),
+            one_line(name),
+            marked(one_line(row.track), row.counted_share < 1.0),
             number(row.start_m, 1),
             number(row.length_m, 1),
             number(iri),
@@ -207,7 +208,7 @@ def _print_roughest(tally: Tally) -> None:
 
 
 def _print_failures(failures: Sequence[Mapping[str, str]]) -> None:
-    rows = [[item["name"], item["error"]] for item in failures[:FAILURES]]
+    rows = [[one_line(item["name"]), item["error"]] for item in failures[:FAILURES]]
     print_table("Failed", ("file", "why"), rows, numbers=False)
     if len(failures) > FAILURES:
         click.echo(f"and {len(failures) - FAILURES} more, in the summary")

@@ -1,7 +1,8 @@
 """The work of `floatref batch`: open folder and cluster, process all files, write one summary."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -17,7 +18,7 @@ from floatref.batch.results.batch_document import (
     batch_document,
     write_batch_document,
 )
-from floatref.batch.results.folder import not_given, prepare_folder
+from floatref.batch.results.folder import is_worked_in, not_given, prepare_folder
 from floatref.batch.results.record import Returned, returned_records
 from floatref.batch.results.segment_layer import write_segment_layer
 from floatref.batch.results.summary import write_summary
@@ -40,6 +41,7 @@ class Work:
     cluster: str | None
     plot: Path | None
     gis: tuple[Path, ...] = ()
+    unencrypted: bool = False
 
     @property
     def command(self) -> Command:
@@ -88,17 +90,25 @@ def _process(jobs: Sequence[Job], work: Work, tally: Tally, returned: Returned) 
     """Fill ``tally`` and ``returned``; return the number of workers."""
     with (
         silence() as shown,
-        connect(work.out, work.jobs, work.cluster) as client,
-        patient(client),
+        connect(work.out, work.jobs, work.cluster, work.unencrypted) as client,
+        patient(client, is_busy=_busy(work)) as lost,
     ):
         workers = count_workers(client)
         tally.begin(jobs, monotonic())
         with progress(tally, shown, lambda: count_workers(client)) as tell:
-            for job, record in run_jobs(client, jobs, work.resume):
+            for job, record in run_jobs(client, jobs, work.resume, lost=lost):
                 tally.add(job, record)
                 returned.add(record)
                 tell()
         return max(workers, count_workers(client))
+
+
+def _busy(work: Work) -> Callable[[], bool]:
+    """Return a function that says whether a task is being done, as far as that can be known.
+
+    The locks of another machine's tasks need not be seen here.
+    """
+    return (lambda: True) if work.cluster else partial(is_worked_in, work.out)
 
 
 def _draw(out: Path, plot: Path) -> None:

@@ -11,6 +11,7 @@ from floatref.batch.jobs.job import Job
 from floatref.batch.results.folder import count_recorded
 from floatref.batch.results.totals import Tally
 from floatref.batch.work.cluster import check_installed
+from floatref.batch.work.encryption import check_encrypted
 from floatref.cli.batch.batch_report import print_report
 from floatref.cli.batch.batch_work import Work, work_through
 from floatref.cli.batch.interruption import interruptible
@@ -71,7 +72,13 @@ SOME_FAILED = 5
     metavar="N",
     help="Workers on this machine; by default one per processor.",
 )
-@click.option("--cluster", metavar="URL", help="Address of a Dask scheduler, as tcp://HOST:8786.")
+@click.option("--cluster", metavar="URL", help="Address of a Dask scheduler, as tls://HOST:8786.")
+@click.option(
+    "--unencrypted-cluster",
+    "unencrypted",
+    is_flag=True,
+    help="Allow --cluster without TLS beyond this machine: whoever reaches it can run programs.",
+)
 @click.option(
     "--resume",
     is_flag=True,
@@ -93,6 +100,7 @@ def batch(
     gis: tuple[Path, ...],
     jobs: int | None,
     cluster: str | None,
+    unencrypted: bool,
     resume: bool,
     plot: Path | None,
     as_json: bool,
@@ -105,6 +113,8 @@ def batch(
     """
     if jobs and cluster:
         raise InputError("--jobs is for workers of this machine; omit it or --cluster")
+    if cluster:
+        check_encrypted(cluster, unencrypted)
     tally, begun = Tally(), list[Job]()
     with interruptible(lambda: _describe_interruption(begun)):
         check_installed()
@@ -114,7 +124,7 @@ def batch(
         defaults = Defaults(adapter, channel_map, pipeline, chosen, segment_m, measures)
         found = find_jobs(given, out, defaults)
         begun += found.jobs
-        work = Work(given, defaults, out, resume, jobs, cluster, plot, gis)
+        work = Work(given, defaults, out, resume, jobs, cluster, plot, gis, unencrypted)
         report = work_through(found, work, tally)
     print_json(report) if as_json else print_report(report, tally, out)
     if tally.failed:

@@ -1,9 +1,10 @@
 """Ctrl-C and SIGTERM during long work: an orderly end, one line and exit code 130."""
 
+import os
 import signal
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from threading import current_thread, main_thread
+from contextlib import contextmanager, suppress
+from threading import Event, Thread, current_thread, main_thread
 from typing import NoReturn
 
 import click
@@ -11,32 +12,49 @@ import click
 from floatref.cli.program.interrupts import INTERRUPTED, Interrupt
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
+ENDING_S = 180.0
+"""Longest time in s between a signal and the end of the command."""
+LATE = "Interrupted; what still ran {:g} s later was killed: go on with --resume\n"
 
 
 @contextmanager
-def interruptible(line: Callable[[], str]) -> Iterator[None]:
+def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterator[None]:
     """Let both signals raise KeyboardInterrupt once, and end with the text of ``line``.
 
-    After the first one both are ignored, so that workers can be stopped. A signal that was ignored
-    before stays ignored.
+    After the first one both are ignored, so that workers can be stopped. Where the work goes on
+    for ``ending_s`` seconds nevertheless, the process ends with a line and exit code 130: its
+    workers end with it, and the next command removes their files. Python drops an exception that a
+    signal raises inside a finalizer. A signal that was ignored before stays ignored.
     """
     before = {number: signal.getsignal(number) for number in SIGNALS}
     caught = [number for number in SIGNALS if before[number] != signal.SIG_IGN]
     if current_thread() is not main_thread():
         caught = []
+    over, errors = Event(), os.dup(2)
 
     def stop(*_: object) -> NoReturn:
         for number in caught:
             signal.signal(number, signal.SIG_IGN)
+        Thread(target=_end_late, args=(over, ending_s, errors), daemon=True).start()
         raise Interrupt
 
-    for number in caught:
-        signal.signal(number, stop)
     try:
+        for number in caught:
+            signal.signal(number, stop)
         yield
     except KeyboardInterrupt as error:
         click.echo(line(), err=True)
         raise click.exceptions.Exit(INTERRUPTED) from error
     finally:
+        over.set()
         for number in caught:
             signal.signal(number, before[number])
+        os.close(errors)
+
+
+def _end_late(over: Event, ending_s: float, errors: int) -> None:
+    """End the process unless ``over`` is set in time; write why to the descriptor ``errors``."""
+    if not over.wait(ending_s):
+        with suppress(OSError):
+            os.write(errors, LATE.format(ending_s).encode())
+        os._exit(INTERRUPTED)

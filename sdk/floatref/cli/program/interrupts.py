@@ -1,16 +1,24 @@
-"""Ctrl-C as an exception of its own, and the exit code that every command then has.
+"""Signals that end a command as an exception of its own, and the exit code that it then has.
 
 Nothing but a few modules of Python is imported here: this is loaded before all else.
 """
 
 import signal
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import current_thread, main_thread
-from typing import NoReturn
+from time import monotonic
+from typing import Any, NoReturn
 
 INTERRUPTED = 130
 """Exit code of every command that was interrupted, as shells have it: 128 and SIGINT."""
+TIDYING_S = 10.0
+"""Time in s after a signal in which others are ignored, so that files can be removed."""
+SIGNALS = tuple(
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
+)
+"""Ctrl-C, the end that a system or a batch queue asks for, and a terminal that was closed."""
 
 
 class Interrupt(KeyboardInterrupt):
@@ -21,6 +29,28 @@ class Interrupt(KeyboardInterrupt):
     """
 
 
+class EndHandler:
+    """Calls ``act`` for a signal; what comes within `TIDYING_S` after it is ignored."""
+
+    _deaf_until_s = 0.0
+
+    def __init__(self, act: Callable[[], NoReturn]) -> None:
+        """Remember what to do."""
+        self._act = act
+
+    def __call__(self, *_: object) -> None:
+        """Act, unless the files of what another handler has ended are being removed."""
+        now_s = monotonic()
+        if now_s >= EndHandler._deaf_until_s:
+            EndHandler._deaf_until_s = now_s + TIDYING_S
+            self._act()
+
+    @staticmethod
+    def begin() -> None:
+        """Begin another program, for which no signal has come yet."""
+        EndHandler._deaf_until_s = 0.0
+
+
 def raise_interrupt(*_: object) -> NoReturn:
     """Raise Interrupt, for a signal."""
     raise Interrupt
@@ -28,13 +58,47 @@ def raise_interrupt(*_: object) -> NoReturn:
 
 @contextmanager
 def raising_interrupt() -> Iterator[None]:
-    """Let Ctrl-C raise Interrupt where it would raise KeyboardInterrupt."""
-    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if current_thread() is not main_thread() or not usual:
+    """Let the signals of `SIGNALS` raise Interrupt where they would end the program otherwise."""
+    with _handled_by(EndHandler(raise_interrupt)):
         yield
-        return
-    signal.signal(signal.SIGINT, raise_interrupt)
+
+
+@contextmanager
+def ending_program(line: str) -> Iterator[None]:
+    """Let these signals end the program with ``line`` on stderr and `INTERRUPTED`.
+
+    For all that runs before and after a command: an Interrupt that click catches outside of a
+    command is `Aborted!` and exit code 1.
+    """
+
+    def end() -> NoReturn:
+        sys.stderr.write(f"{line}\n")
+        sys.exit(INTERRUPTED)
+
+    with _handled_by(EndHandler(end)):
+        yield
+
+
+@contextmanager
+def _handled_by(handler: EndHandler) -> Iterator[None]:
+    """Use ``handler`` for signals that nobody else handles or ignores."""
+    before: dict[int, Any] = {}
+    if current_thread() is main_thread():
+        before = {number: signal.getsignal(number) for number in SIGNALS}
+        before = {number: old for number, old in before.items() if _is_usual(old)}
+    if not any(isinstance(old, EndHandler) for old in before.values()):
+        EndHandler.begin()
     try:
+        for number in before:
+            signal.signal(number, handler)
         yield
     finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        for number, old in before.items():
+            signal.signal(number, old)
+
+
+def _is_usual(handler: Any) -> bool:
+    """Return whether ``handler`` is Python's or the system's, or that of `ending_program`."""
+    return handler in (signal.default_int_handler, signal.SIG_DFL) or isinstance(
+        handler, EndHandler
+    )

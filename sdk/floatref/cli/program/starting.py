@@ -17,14 +17,14 @@ def start() -> None:
 def start_program(module: str, interrupted: str) -> None:
     """Load ``module`` and call its `main`.
 
-    Where Ctrl-C ends the loading, the line ``interrupted`` goes to stderr and the exit code is 130.
+    Where a signal ends the loading, or comes between two parts of a command, the line
+    ``interrupted`` goes to stderr and the exit code is 130.
     """
     try:
-        from floatref.cli.program.interrupts import raising_interrupt
+        from floatref.cli.program.interrupts import ending_program
 
-        with raising_interrupt():
-            main = import_module(module).main
+        with ending_program(interrupted):
+            import_module(module).main()
     except KeyboardInterrupt:
         sys.stderr.write(f"{interrupted}\n")
         sys.exit(130)
-    main()

@@ -24,9 +24,9 @@ def write_file(
             write(beside)
         except InputError as error:
             raise InputError(str(error).replace(str(beside), str(out))) from error
-        except (FloatrefError, OSError):
+        except (FloatrefError, OSError, KeyboardInterrupt):
             raise
-        except Exception as error:
+        except BaseException as error:
             raise PluginError(failure(f"format {name}", out, error)) from error
         if not beside.is_file():
             raise PluginError(f"format {name}: {out}: wrote no file")

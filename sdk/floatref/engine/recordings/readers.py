@@ -108,12 +108,12 @@ def guard(name: str, source: Path) -> Iterator[None]:
     """Turn an unexpected exception of adapter ``name`` into a PluginError in one line."""
     try:
         yield
-    except (FloatrefError, MemoryError):
+    except (FloatrefError, MemoryError, KeyboardInterrupt, GeneratorExit):
         raise
     except OSError as error:
         place = error.filename or source
         raise InputError(f"{place}: {error.strerror or error}; copy the file again") from error
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
         # contextlib treats a RuntimeError caused by a StopIteration as the StopIteration itself.
         cause = None if isinstance(error, StopIteration) else error
         raise PluginError(failure(f"adapter {name}", source, error)) from cause
@@ -128,6 +128,8 @@ def _check(found: Any, reader: Adapter, source: Path, kind: type[T], what: str) 
 def _recognise(adapter: Adapter, source: Path) -> bool:
     try:
         return bool(adapter.recognises(source))
-    except Exception as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
         plugins().reports.append(failure(f"adapter {adapter.name}", source, error))
         return False

@@ -27,6 +27,8 @@ def _recognise(form: ProfileFormat, path: Path) -> bool:
     except (OSError, ValueError):
         # A name that cannot be opened: reading it raises the error.
         return False
-    except Exception as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
         plugins().reports.append(failure(f"format {form.name}", path, error))
         return False

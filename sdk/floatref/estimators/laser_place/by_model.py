@@ -118,8 +118,13 @@ class HeightByModel(Stage):
         """Return the lines through ``bins`` at the samples of ``block``, shape (n,)."""
         from floatref.estimators.levelling import kernel
 
+        first = block.first - self.memory["begin"]
+        low = max(0, first // self._every - 1)
+        # Most of a run is far from any stop, where nothing is to be added.
+        if not bins[low : (first + len(block)) // self._every + 2].any():
+            return np.zeros(len(block))
         found = np.empty(len(block))
-        kernel.between_bins(bins, block.first - self.memory["begin"], self._every, found)
+        kernel.between_bins(bins, first, self._every, found)
         return found
 
     def find_pitch(self, bins: FloatArray) -> FloatArray:

@@ -35,6 +35,6 @@ def _add_levelling(block: Block, tracks: Sequence[str]) -> Block:
     """Return ``block`` with what levelling leaves in its 1-σ, in quadrature."""
     if LEVELLING not in block.values:
         return block
-    own = [ChannelId(SIGMA, track) for track in tracks]
+    own = [ChannelId(SIGMA, track) for track in tracks if block[LEVELLING].any()]
     values = {sigma: np.hypot(block[sigma], block[LEVELLING]) for sigma in own}
     return block.setting(values, {}).without(LEVELLED, LEVELLING_SIGMA)

@@ -1,6 +1,7 @@
 """The stage that gives the smoother what a level accelerometer would read through a stop."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,7 +11,6 @@ from floatref.estimators.laser_place.pitching import model_pitch, second_derivat
 from floatref.estimators.road_prior.constants import LEVELLED_LEAN, RoadPrior
 from floatref.estimators.road_prior.learned import Brake, pool
 from floatref.estimators.road_slope.constants import Places, SlopeModel
-from floatref.estimators.road_slope.levelled import Levelled
 from floatref.estimators.road_slope.readings import Drive
 from floatref.estimators.road_slope.stretches import near_brakes
 from floatref.stages.conditioning import SPECIFIC_FORCE
@@ -19,6 +19,9 @@ from floatref.stages.signals import HEIGHT, LEVELLED, LEVELLING_SIGMA
 from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray
 from floatref.values.block import Block, Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+
+if TYPE_CHECKING:
+    from floatref.estimators.road_slope.levelled import Levelled
 
 SHARE, SIGMA = ChannelId(LEVELLED), ChannelId(LEVELLING_SIGMA)
 
@@ -72,6 +75,9 @@ class LevelByRoad(HeightByModel):
 
     def find_pitch(self, bins: FloatArray) -> FloatArray:
         """Return sin θ of every bin, and keep what the forces have to be raised by."""
+        # It loads the sparse matrices of scipy, which no other pipeline needs.
+        from floatref.estimators.road_slope.levelled import Levelled
+
         drive, places = self._drive(bins), self.places()
         found = Levelled.of(drive, from_laser(places), self._model(), self.wavelength_m)
         pitch = np.zeros(drive.force.size)

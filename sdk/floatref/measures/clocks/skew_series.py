@@ -18,6 +18,8 @@ BLOCK = 30 * RATE_HZ
 """Points calculated together."""
 FILLED = 0.7
 """Least share of the expected samples that a point needs."""
+THIN = 4
+"""Samples per step above which those around a point alone are read."""
 LOPSIDED = 0.1
 """Largest distance of the middle of their times from the point, as a share of the steps."""
 
@@ -46,7 +48,7 @@ def find_standing(distance: Channel, grid_s: FloatArray, most_m: float, over_s: 
     places = np.full(grid_s.size, np.nan)
     for first in range(0, grid_s.size, BLOCK):
         points = grid_s[first : first + BLOCK]
-        times, values = _between(distance, points[0] - 1.0, points[-1] + 1.0)
+        times, values = _around(distance, points)
         known = ~np.isnan(values)
         if known.any():
             there = np.interp(points, times[known], values[known], np.nan, np.nan)
@@ -80,6 +82,23 @@ def _between(channel: Channel, begin_s: float, end_s: float) -> tuple[FloatArray
     if isinstance(clock, StampedClock):
         release(clock.times_s)
     return times, values
+
+
+def _around(channel: Channel, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return times and values that lines between samples at ``points`` depend on.
+
+    Of a channel with a rate these are the samples around each point, unless some are missing.
+    """
+    clock, begin_s, end_s = channel.clock, points[0] - 1.0, points[-1] + 1.0
+    if isinstance(clock, UniformClock) and float(clock.rate) > THIN * RATE_HZ:
+        middle = np.floor((points - clock.start_s) * float(clock.rate)).astype(np.int64)
+        near = np.unique(np.add.outer(middle, [-1, 0, 1, 2]).clip(0, channel.values.size - 1))
+        values = channel.values[near]
+        if not np.isnan(values.sum()):
+            release(channel.values)
+            times = near.astype(np.float64) * clock.rate.denominator / clock.rate.numerator
+            return clock.start_s + times, values
+    return _between(channel, begin_s, end_s)
 
 
 def _smooth(times: FloatArray, values: FloatArray, points: FloatArray, fewest: float) -> FloatArray:

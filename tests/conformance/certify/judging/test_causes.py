@@ -8,10 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.measures import high_pass
-from floatref.values.profile import ProfileTrack
+from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.fitting.fit import fit
 from floatref_conformance.certify.judging.causes import causes
 from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.proving_ground.roads.random_roads import sayers_road
+from floatref_conformance.proving_ground.roads.strips import along_line
+from floatref_conformance.proving_ground.roads.wander import Line
 
 STRICT = CertificationLimits(repeatability=0.98, accuracy=0.98)
 
@@ -115,6 +118,29 @@ def test_short_waves_that_a_footprint_takes_are_not_blamed_on_the_heights(road, 
     found = causes_by_id(road.reference(), run, STRICT)
     assert set(found) == {"short-waves"}
     assert found["short-waves"].explains > 0.5
+
+
+@pytest.mark.slow
+def test_another_line_on_the_road_is_told_from_noise() -> None:
+    road = sayers_road("normal", 800.0, seed=4)
+    beside = along_line(road, Line(4, 0.25, 0.03), 4)
+    at = np.arange(60.0, 700.0, 0.025)
+    reference, run = (
+        Profile(0.025, (ProfileTrack.of("left", r.at("left", at)),), 60.0) for r in (road, beside)
+    )
+    assert next(iter(causes_by_id(reference, run, STRICT))) == "wander"
+
+
+def test_a_run_whose_body_moves_has_a_skew(road, changed) -> None:
+    def late(name, z):
+        # The body of a car at 11 m/s that swings at 1.4 Hz, 10 ms later than the road.
+        s = 2j * np.pi * 11.0 * np.fft.rfftfreq(z.size, 0.04) / 8.8
+        body = (1.0 + 0.3 * s) / (1.0 + 0.3 * s + s**2)
+        ramp = np.linspace(z[0], z[-1], z.size)
+        waves = np.fft.rfft(z - ramp) * (1.0 + body * np.expm1(8.8 * 0.01 * s))
+        return name, np.fft.irfft(waves, z.size) + ramp
+
+    assert "skew" in causes_by_id(road.reference(), changed(road.run(), late))
 
 
 def test_long_waves_that_a_filter_takes_are_named(road, changed) -> None:

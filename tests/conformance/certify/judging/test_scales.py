@@ -1,13 +1,23 @@
-"""Errors of scale: every run is held to the limit, with two sigma in its favour."""
+"""Errors of scale: every run is held to the limit, with two sigma in its favour or more."""
+
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.special import ndtr
 
 from floatref.errors import InputError
 from floatref_conformance.certify.judging.contents import Judged, RunSheet, RunTrack
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.judging.scales import judge_distance, judge_height, judge_readings
+from floatref_conformance.certify.judging.scales import (
+    judge_distance,
+    judge_height,
+    judge_long_waves,
+    judge_mean_height,
+    judge_readings,
+    sigmas_of,
+)
 from floatref_conformance.certify.plan.plan_document import DistancePlan
 
 NAN = float("nan")
@@ -100,6 +110,45 @@ def test_an_error_that_is_large_beyond_all_doubt_fails_though_it_is_vague():
     found = by_height((9.0, 1.0))
     assert found.judged is Judged.FAIL
     assert "not told" not in found.reason
+
+
+@given(st.integers(1, 200))
+def test_the_largest_of_many_is_beyond_by_chance_as_rarely_as_one(count):
+    assert sigmas_of(1) == pytest.approx(2.0)
+    assert count * ndtr(-sigmas_of(count)) == pytest.approx(ndtr(-2.0))
+
+
+def test_what_one_run_does_not_show_for_certain_their_mean_does():
+    errors = [(2.6, 0.8)] * 10
+    assert by_height(*errors).judged is not Judged.FAIL
+    found = judge_mean_height(runs(*(track(height=error) for error in errors)), LIMITS)
+    assert (found.judged, found.value) == (Judged.FAIL, pytest.approx(2.6))
+
+
+@settings(deadline=None)
+@given(st.lists(st.floats(-2.0, 2.0), min_size=1, max_size=10), st.floats(0.1, 2.0))
+def test_the_mean_of_heights_keeps_the_half_of_its_error_that_runs_share(errors, sigma):
+    found = judge_mean_height(runs(*(track(height=(e, sigma)) for e in errors)), LIMITS)
+    mean, count = sum(errors) / len(errors), len(errors)
+    assert found.value == pytest.approx(mean, abs=1e-9)
+    error = sigma * (0.5 + 0.5 / count) ** 0.5
+    if abs(abs(mean) - 2.0 * error - 1.0) > 1e-9:
+        assert (found.judged is Judged.FAIL) == (abs(mean) - 2.0 * error > 1.0)
+
+
+def test_the_mean_of_heights_that_nobody_tells_is_reported():
+    assert judge_mean_height(runs(track(height=(NAN, NAN))), LIMITS).judged is Judged.REPORTED
+    assert judge_mean_height((), LIMITS).judged is Judged.REPORTED
+
+
+def test_long_waves_fail_by_name_of_the_run_and_are_no_height():
+    wheel_paths = [replace(track(), long_percent=e, long_sigma=1.5) for e in (2.0, 25.0, 1.0)]
+    found = judge_long_waves("left", runs(*wheel_paths), LIMITS)
+    assert (found.judged, found.value, found.track) == (Judged.FAIL, 25.0, "left")
+    assert found.reason == "beyond the limit: run-2 +25.00 % ± 3 %"
+    assert judge_height("left", runs(*wheel_paths), LIMITS).judged is Judged.PASS
+    unknown = judge_long_waves("left", runs(track()), LIMITS)
+    assert unknown.judged is Judged.REPORTED
 
 
 def test_without_a_limit_it_is_reported():

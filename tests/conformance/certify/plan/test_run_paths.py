@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
+from floatref_conformance.certify.plan import run_paths
 from floatref_conformance.certify.plan.run_paths import check_exists, names_of, natural, runs_of
 
 
@@ -132,3 +133,14 @@ def test_an_empty_word_is_no_path(folder: Path) -> None:
 
 def test_a_name_stays_on_one_line() -> None:
     assert names_of([Path("a/new\nline.erd"), Path("a/tab\there")]) == ("new line", "tab here")
+
+
+@pytest.mark.parametrize("text", ["**/*", "*/**/none", ".", "[a-b]"])
+def test_a_search_through_too_many_names_is_refused(tmp_path, monkeypatch, text):
+    monkeypatch.setattr(run_paths, "MOST", 5)
+    (tmp_path / "a").mkdir()
+    for number in range(6):
+        (tmp_path / "a" / f"{number}.csv").touch()
+    with pytest.raises(InputError, match=r"more than 5 files and folders lie below .*; name a"):
+        runs_of([text], tmp_path)
+    assert len(runs_of(["a/*.csv"], tmp_path)) == 6

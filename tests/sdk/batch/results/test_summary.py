@@ -15,6 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.batch.results import summary
+from floatref.batch.results.cells import read_cell
 from floatref.batch.results.record import Record, Row
 from floatref.batch.results.summary import COLUMNS, CSV, NOT_COLUMNS, PARQUET, write_summary
 
@@ -47,7 +48,10 @@ failures = st.builds(Record, name=words, source=words, error=words.filter(bool))
 def read(folder: Path) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     with (folder / CSV).open(encoding="utf-8", newline="") as stream:
         lines = [
-            {k: COLUMNS[k](v) if v or COLUMNS[k] is str else None for k, v in line.items()}
+            {
+                k: read_cell(v) if COLUMNS[k] is str else COLUMNS[k](v) if v else None
+                for k, v in line.items()
+            }
             for line in csv.DictReader(stream)
         ]
     return lines, parquet.read_table(folder / PARQUET).to_pylist()

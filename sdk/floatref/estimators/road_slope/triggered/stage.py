@@ -11,7 +11,6 @@ from floatref.estimators.levelling.lines import Means
 from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.road_slope.readings import Drive
 from floatref.estimators.road_slope.stage import LevelByRoad, from_laser
-from floatref.estimators.road_slope.triggered.expected_road import ExpectedRoad, LevelledRoad
 from floatref.stages.marks import flags_of
 from floatref.stages.signals import ACCELERATION, EXPECTED_ROAD, LEVELLING_SIGMA, MISSING_SHARE
 from floatref.values.arrays import Flag, FlagArray, FloatArray
@@ -71,6 +70,11 @@ class LevelTriggered(LevelByRoad):
 
     def find_pitch(self, bins: FloatArray) -> FloatArray:
         """Return sin θ of every bin, and keep what the accelerations have to be raised by."""
+        from floatref.estimators.road_slope.triggered.expected_road import (
+            ExpectedRoad,
+            LevelledRoad,
+        )
+
         drive, places = self._drive(bins), self.places()
         found = LevelledRoad.over(drive, from_laser(places), self._model(), self.wavelength_m)
         pitch = np.zeros(drive.force.size)

@@ -1,0 +1,65 @@
+"""Links that a device under test plants in the folder of a report are not followed."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from floatref.errors import InputError
+from floatref.files.atomic import replace_file
+from floatref_conformance.checks.verdict import Outcome
+from floatref_conformance.devices.interface import Description
+from floatref_conformance.judge.events import RunFinished, RunStarted
+from floatref_conformance.plugins import load_registry
+from floatref_conformance.render import html, junit, report
+from floatref_conformance.render.cases import CaseFiles
+from floatref_conformance.render.html import HtmlReport
+from floatref_conformance.render.junit import JUnitReport
+from floatref_conformance.render.report import JsonReport
+
+WRITERS = {html.NAME: HtmlReport, junit.NAME: JUnitReport, report.NAME: JsonReport}
+
+
+@pytest.fixture
+def valuable(tmp_path: Path) -> Path:
+    """A file of the user that a link of the device leads to."""
+    (tmp_path / "valuable").write_text("mine", encoding="utf-8")
+    return tmp_path / "valuable"
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("name", WRITERS)
+def test_a_report_replaces_a_link_in_its_place(
+    tmp_path: Path, valuable: Path, name: str, check, result
+) -> None:
+    folder, checks = tmp_path / "report", tuple(load_registry().checks.values())
+    writer = WRITERS[name].into(folder)
+    writer.handle(RunStarted("x", Description("x", "1", "temporal", ()), checks, ()))
+    (folder / name).symlink_to(valuable)
+    writer.handle(RunFinished(result(check(Outcome.PASS))))
+    assert valuable.read_text(encoding="utf-8") == "mine"
+    assert not (folder / name).is_symlink()
+    assert (folder / name).stat().st_size > 100
+
+
+@pytest.mark.posix
+def test_cases_are_not_written_through_a_link(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "report").mkdir()
+    (tmp_path / "report" / "cases").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(InputError, match=r"cases: is a link, .*; remove it"):
+        CaseFiles.into(tmp_path / "report")
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("follow", [True, False])
+def test_what_a_user_names_is_followed_and_what_is_planted_not(
+    tmp_path: Path, valuable: Path, follow: bool
+) -> None:
+    (tmp_path / "link").symlink_to(valuable)
+    with replace_file(tmp_path / "link", overwrite=True, follow=follow) as beside:
+        beside.write_text(json.dumps(follow), encoding="utf-8")
+    assert (tmp_path / "link").is_symlink() == follow
+    assert valuable.read_text(encoding="utf-8") == ("true" if follow else "mine")
+    assert (tmp_path / "link").read_text(encoding="utf-8") == json.dumps(follow)

@@ -1,0 +1,101 @@
+"""Signals that end a command: one line, exit code 130 and no file, wherever they come."""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.posix
+
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+WORK = """
+import os, signal, sys, time
+from pathlib import Path
+from floatref.files.atomic import replace_file
+
+def command():
+    with replace_file(Path("road.erd")) as beside:
+        beside.write_text("half")
+        try:
+            os.kill(os.getpid(), int(sys.argv[2]))
+            time.sleep(600)
+        finally:
+            # Impatience does not hinder what has to be removed.
+            os.kill(os.getpid(), int(sys.argv[2]))
+            [0 for _ in range(10**6)]
+"""
+PROGRAM = """
+import click, sys
+from floatref.cli.lazy import LazyGroup
+from floatref.cli.program.starting import start_program
+import work as module
+
+where = sys.argv[1]
+run = module.command
+module.click_command = click.command("inside")(click.argument("number")(lambda number: run()))
+group = LazyGroup("prog", lazy={"inside": ("work:click_command", "works")})
+
+class Outside(click.Group):
+    def invoke(self, ctx):
+        return run()
+
+def main():
+    if where == "inside":
+        group()
+    else:
+        Outside("prog", commands={"outside": module.click_command})()
+
+sys.modules["program_main"] = sys.modules[__name__]
+start_program("program_main", "Interrupted")
+"""
+
+
+@pytest.mark.parametrize("where", ["inside", "outside"])
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_signal_is_a_line_and_130_and_leaves_nothing(
+    tmp_path: Path, number: signal.Signals, where: str
+) -> None:
+    """``outside``: click itself would say `Aborted!` and end with 1."""
+    code = tmp_path / "code"
+    code.mkdir()
+    (code / "work.py").write_text(WORK, encoding="utf-8")
+    (code / "program.py").write_text(PROGRAM, encoding="utf-8")
+    (tmp_path / "here").mkdir()
+    words = [sys.executable, str(code / "program.py"), where, str(int(number))]
+    done = subprocess.run(
+        words, cwd=tmp_path / "here", capture_output=True, text=True, timeout=600, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "Interrupted\n")
+    assert list((tmp_path / "here").iterdir()) == []
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_signal_that_was_ignored_stays_so(tmp_path: Path, number: signal.Signals) -> None:
+    text = (
+        f"import os, signal; signal.signal({int(number)}, signal.SIG_IGN)\n"
+        "from floatref.cli.program.interrupts import raising_interrupt\n"
+        f"with raising_interrupt():\n    os.kill(os.getpid(), {int(number)})\nprint('goes on')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "goes on\n", "")
+
+
+def test_a_command_whose_loading_is_interrupted_says_what_is_missing(tmp_path: Path) -> None:
+    """Most of the time of a short command is the loading of modules."""
+    text = (
+        "import os, signal, sys\n"
+        "class Hit:\n"
+        "    def find_spec(name, path=None, target=None):\n"
+        "        if name == 'floatref_conformance.cli.table':\n"
+        "            os.kill(os.getpid(), signal.SIGTERM)\n"
+        "            [0 for _ in range(10**6)]\n"
+        "sys.meta_path.insert(0, Hit)\n"
+        "sys.argv[1:] = ['table', '--json']\n"
+        "from floatref_conformance.__main__ import start\n"
+        "start()\n"
+    )
+    words = [sys.executable, "-c", text]
+    done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "Interrupted: no table\n")
