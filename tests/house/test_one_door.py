@@ -44,6 +44,7 @@ ALLOWED = {
     "sdk/floatref/files/schema.py:read_text": "a file of the package",
     "sdk/floatref/c/amalgamation.py:read_text": "files of the package",
     "sdk/floatref/viewer/page_writer.py:read_text": "files of the package",
+    "sdk/floatref/live/monitor/page_server.py:read_text": "files of the package",
     "sdk/floatref/cli/lazy.py:open": "a descriptor of a standard stream",
     "sdk/floatref/files/growing_profile.py:open": "a descriptor that is opened to append",
     "sdk/floatref/live/saved_state.py:load": "an opened stream",

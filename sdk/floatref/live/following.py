@@ -64,6 +64,7 @@ class Following:
         tick: the last tick that has passed; None before the first.
         distance_m: the last known distance.
         late: by channel, how many samples came too late, since the last window.
+        late_in_all: the same since the stream was started or resumed.
         refused: the first refusal of a window, until any window is accepted.
     """
 
@@ -80,6 +81,7 @@ class Following:
         self.distance_m: float | None = None
         self._needed_s = -np.inf
         self.late: dict[ChannelId, int] = {}
+        self.late_in_all: dict[ChannelId, int] = {}
         self.refused: InputError | None = None
         self.accepted = False
         distance = order.example.channel(DISTANCE, order.example.tracks[0])
@@ -90,7 +92,8 @@ class Following:
         for name, piece in pieces.items():
             late = self.held[name].add(piece)
             if late:
-                self.late[name] = self.late.get(name, 0) + late
+                for counts in (self.late, self.late_in_all):
+                    counts[name] = counts.get(name, 0) + late
         last = self._reached()
         if last is None:
             return

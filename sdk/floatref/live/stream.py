@@ -68,6 +68,11 @@ class LiveStream:
         return self._following.order.tracks
 
     @property
+    def late(self) -> dict[str, int]:
+        """By channel, how many samples came too late since the stream was started or resumed."""
+        return {str(name): count for name, count in dict(self._following.late_in_all).items()}
+
+    @property
     def is_open(self) -> bool:
         """Whether it takes samples."""
         return not (self._finished or self._stopped)

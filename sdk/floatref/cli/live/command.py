@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from floatref.cli.batch.interruption import interruptible
+from floatref.cli.live.live_views import make_monitor, open_views
 from floatref.cli.number_option import number_option
 from floatref.errors import InputError, TargetExists
 from floatref.live.session.connections import is_loopback, read_token, serve_connections
@@ -50,6 +51,15 @@ SAVED = "Interrupted; the run is saved, go on with --resume"
     "save_s",
     "SECONDS",
 )
+@click.option("--display", is_flag=True, help="Show the state of the run in this terminal.")
+@click.option(
+    "--web",
+    type=int,
+    is_flag=False,
+    flag_value=0,
+    metavar="[PORT]",
+    help="Show it on a page on this machine; without PORT at a free one.",
+)
 def live(
     out: Path,
     resume: bool,
@@ -59,6 +69,8 @@ def live(
     allow_remote: bool,
     token_file: Path | None,
     save_s: float,
+    display: bool,
+    web: int | None,
 ) -> None:
     """Make a profile of samples while they come: messages in, points out.
 
@@ -67,16 +79,22 @@ def live(
     """
     _check(out, resume, follow, listen, save_s)
     token = _check_port(listen, host, allow_remote, token_file)
-    run = LiveRun(out, resume, save_s)
+    monitor = make_monitor(out, display, web)
+    run = LiveRun(out, resume, save_s, monitor)
     try:
-        with interruptible(lambda: SAVED if run.is_begun else "Interrupted"):
-            if listen is not None:
-                serve_connections(run, host, listen, token, click.echo, _say)
-                return
-            with standard_streams() if follow is None else followed(follow) as peer:
-                Serving(run, peer).serve()
+        with open_views(monitor, display, web, _say):
+            _serve(run, follow, listen, host, token)
     finally:
         run.close()
+
+
+def _serve(run: LiveRun, follow: Path | None, listen: int | None, host: str, token: str) -> None:
+    with interruptible(lambda: SAVED if run.is_begun else "Interrupted"):
+        if listen is not None:
+            serve_connections(run, host, listen, token, click.echo, _say)
+            return
+        with standard_streams() if follow is None else followed(follow) as peer:
+            Serving(run, peer).serve()
 
 
 def _check(out: Path, resume: bool, follow: Path | None, listen: int | None, save_s: float) -> None:

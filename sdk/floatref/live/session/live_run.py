@@ -83,6 +83,7 @@ class LiveRun:
         for name, each in numbered.items():
             if each.missing:
                 text = describe_missing(name, each.missing, self._numbers)
+                self.watch.missed(name, each.missing)
                 self.watch.event(text)
                 yield answers.event(text)
         for pieces in fill(numbered, self._numbers.clocks):
@@ -113,7 +114,9 @@ class LiveRun:
         """
         assert self._stream is not None
         assert self._directory is not None
+        self.watch.waited(True)
         points = self._stream.finish()
+        self.watch.waited(False)
         self._directory.finish([each for each in points if each.state is State.FINAL])
         self.complete = True
         yield from self._give(points)
@@ -127,6 +130,7 @@ class LiveRun:
             tracks = cut_tracks(profile, low - begin, high - begin)
             made = profile.interval_m, tracks, State.FINAL, profile.pipeline
             yield from answers.of_points(LivePoints(low, *made))
+        self.watch.completed()
         yield answers.finished(self._path, count, profile.interval_m)
 
     def close(self) -> None:
@@ -153,6 +157,7 @@ class LiveRun:
         self._numbers = SampleNumbers(clocks, sent)
         self._distance = next((n for n in clocks if n.rpartition(".")[2] == DISTANCE), DISTANCE)
         self._odometer = Odometer(clocks.get(self._distance))
+        self.watch.declared(clocks)
 
     def _check_same(self, hello: Hello) -> None:
         assert self._directory is not None
@@ -180,13 +185,16 @@ class LiveRun:
         piece = samples.channels.get(self._distance)
         if piece is not None:
             self._odometer.add(piece, self._numbers.come[self._distance] - piece.values.size)
+        self.watch.read(samples.channels)
         self.watch.took(self._odometer.see(counts))
 
     def _save(self, points: list[LivePoints]) -> Iterator[Answer]:
         """Save the stream behind ``points`` and all that are ready, then give these out."""
         assert self._stream is not None
         assert self._directory is not None
+        self.watch.waited(True)
         points = [*points, *self._stream.ready(wait=True)]
+        self.watch.waited(False)
         final = [each for each in points if each.state is State.FINAL]
         self._directory.store(final, self._stream, self._numbers.next)
         self._saved_at, self._unsaved = self._clock(), False

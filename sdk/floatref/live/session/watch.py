@@ -37,17 +37,35 @@ class Watch:
     This one does nothing. A class of an observer overrides what it wants to see.
     """
 
+    def declared(self, clocks: Mapping[str, UniformClock | None]) -> None:
+        """See the clock of each channel by its name, None where its samples have times."""
+
     def started(self, stream: LiveStream) -> None:
         """See the ``stream``, once its channels are known or it goes on."""
 
+    def read(self, pieces: Mapping[str, Piece]) -> None:
+        """See the samples of a message, by channel; `took` follows."""
+
+    def missed(self, name: str, count: int) -> None:
+        """See that ``count`` samples of the channel ``name`` were never sent."""
+
     def took(self, taken: Taken) -> None:
         """See what a message of samples has brought."""
+
+    def waited(self, begins: bool) -> None:
+        """See that the run waits for its points to be calculated, or that it goes on.
+
+        No message is read meanwhile.
+        """
 
     def gave(self, points: LivePoints) -> None:
         """See ``points``, provisional or final, with their events; final ones are stored."""
 
     def event(self, text: str) -> None:
         """See one line about the connection or the samples."""
+
+    def completed(self) -> None:
+        """See that all points of the run were given."""
 
     def ended(self, text: str) -> None:
         """See why the run, or the connection, has ended."""
