@@ -19,8 +19,14 @@ from floatref_conformance.checks.verdict import CheckResult, RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.editions.edition import find_edition
-from floatref_conformance.judge.events import CaseReplayed, CheckFinished, CheckStarted, Event
-from floatref_conformance.judge.runner import Emit, Judged, Plan, run
+from floatref_conformance.judge.events import (
+    CaseReplayed,
+    CheckFinished,
+    CheckStarted,
+    Emit,
+    Event,
+)
+from floatref_conformance.judge.runner import Judged, Plan, run
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.worker_pool import wait_for, worker_pool
 

@@ -1,7 +1,7 @@
 """From the cases of a check to its outcome."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 from floatref_conformance.case_files import name_of
 from floatref_conformance.checks.case import Case
@@ -15,8 +15,20 @@ from floatref_conformance.devices.interface import HEIGHT, NEEDS, RESPONSE
 from floatref_conformance.judge import oracle
 
 
+class Known(Protocol):
+    """What a result takes of a check, of recordings or of streams."""
+
+    @property
+    def id(self) -> str:
+        """Name by which the check is selected."""
+
+    @property
+    def clause(self) -> str:
+        """Where its limits come from."""
+
+
 def check_result(
-    check: Check,
+    check: Known,
     cases: Sequence[CaseResult],
     device_class: DeviceClass,
     simpler: tuple[Case, CaseResult] | None = None,
@@ -67,13 +79,14 @@ def _find_largest(
     return max(measured, key=lambda pair: rank(pair[0]), default=(None, ""))
 
 
-def find_scored(check: Check, case: Case) -> Stretches:
-    """Return the stretches that ``check`` scores in ``case``; empty if it raises.
+def find_scored(check: Known, case: Case) -> Stretches:
+    """Return the stretches that ``check`` scores in ``case``; empty if it raises or has no such.
 
     They are only for pictures and do not affect the verdict.
     """
+    list_scored: Callable[[Case], Stretches] = getattr(check, "list_scored", lambda _: ())
     try:
-        return tuple((float(start), float(end)) for start, end in check.list_scored(case))
+        return tuple((float(start), float(end)) for start, end in list_scored(case))
     except (Exception, SystemExit):
         return ()
 

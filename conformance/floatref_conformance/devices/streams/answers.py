@@ -76,7 +76,7 @@ class Points:
     @property
     def distance_m(self) -> FloatArray:
         """Distance of every point in m, shape (N,)."""
-        return (self.first + np.arange(self.count)) * self.interval_m
+        return (self.first + np.arange(self.count, dtype=np.float64)) * self.interval_m
 
 
 def kind_of(answer: Mapping[str, Any]) -> str:
@@ -96,7 +96,9 @@ def read_started(answer: Mapping[str, Any]) -> Started:
     if not isinstance(declared, Mapping):
         raise DeviceError("started without a latency; state travelled_m, then_s and longest_s")
     latency = Latency(
-        *(_amount(declared, key) for key in ("travelled_m", "then_s", "longest_s")),
+        _amount(declared, "travelled_m"),
+        _amount(declared, "then_s"),
+        _amount(declared, "longest_s"),
         standing_s=_amount_or_none(declared, "standing_s"),
         provisional_s=_amount_or_none(declared, "provisional_s"),
     )

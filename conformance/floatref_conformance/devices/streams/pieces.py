@@ -66,7 +66,7 @@ def cut(recording: Recording, cuts_s: Sequence[float], by_turns: bool = False) -
 
 
 def _turns(samples: Samples, before_s: float, limit_s: float) -> Iterator[Piece]:
-    names = list(reversed(samples))
+    names = list(samples)[::-1]
     for name in names:
         yield Piece(limit_s if name == names[-1] else before_s, {name: samples[name]})
 

@@ -46,7 +46,7 @@ class Line:
     @property
     def distance_m(self) -> FloatArray:
         """Distance of every point in m, shape (N,)."""
-        return (self.first + np.arange(self.elevation.size)) * self.interval_m
+        return (self.first + np.arange(self.elevation.size, dtype=np.float64)) * self.interval_m
 
 
 @dataclass

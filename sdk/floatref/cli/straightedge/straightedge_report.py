@@ -59,7 +59,7 @@ def straightedge_report(
     """
     # The profilograph needs the most memory, so the areas of the straightedge come after it.
     traces = [_describe_trace(track, profile, machine, rules) for track in profile.tracks]
-    tracks = [
+    tracks: list[dict[str, Any]] = [
         {
             "name": track.name,
             "valid_share": float(np.mean(track.valid)),
