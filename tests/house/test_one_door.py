@@ -39,8 +39,8 @@ LIBRARIES = {
 }
 """Functions of libraries that open what they are given."""
 ALLOWED = {
-    "sdk/floatref/files/mapped_files.py:memmap": "maps what the door has opened",
-    "sdk/floatref/files/cut_files.py:mmap": "mmap(2), of no file",
+    "sdk/floatref/files/mapped/mapped_files.py:memmap": "maps what the door has opened",
+    "sdk/floatref/files/mapped/cut_files.py:mmap": "mmap(2), of no file",
     "sdk/floatref/files/schema.py:read_text": "a file of the package",
     "sdk/floatref/c/amalgamation.py:read_text": "files of the package",
     "sdk/floatref/viewer/page_writer.py:read_text": "files of the package",

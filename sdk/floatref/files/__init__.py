@@ -5,7 +5,7 @@ on reading and on writing; a directory is written completely or not at all.
 """
 
 from floatref.files.fingerprint import fingerprint, fingerprint_native
-from floatref.files.mapped_files import map_bytes
+from floatref.files.mapped.mapped_files import map_bytes
 from floatref.files.profile_csv import write_profile_csv
 from floatref.files.profile_directory import read_profile, write_profile
 from floatref.files.recording_directory import read_recording, write_recording

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
-from floatref.files.mapped_files import map_bytes
+from floatref.files.mapped.mapped_files import map_bytes
 from floatref.values.arrays import BoolArray, FloatArray, frozen
 from floatref.values.scanning import chunks
 

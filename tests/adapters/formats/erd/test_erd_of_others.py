@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from floatref import InputError
 from floatref_adapters.formats.erd.erd_profile import Erd
@@ -243,21 +241,6 @@ def test_what_is_no_file_is_refused(tmp_path):
         assert not Erd().recognises(path)
         with pytest.raises(InputError, match="not a file"):
             Erd().read(path)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=300)
-@given(place=st.integers(0, 400), junk=st.binary(max_size=12), cut=st.integers(0, 12))
-def test_damage_anywhere_is_a_profile_or_one_clear_line(tmp_path_factory, place, junk, cut):
-    path = tmp_path_factory.getbasetemp() / "damaged.erd"
-    whole = erd(*(f"{k}.25 -{k}" for k in range(3)), more=["LONGNAME" + "left elevation"]).encode()
-    path.write_bytes(whole[:place] + junk + whole[place + cut :])
-    refusals = []
-    try:
-        assert Erd().read(path).tracks[0].elevation.size >= 1
-    except InputError as error:
-        refusals.append(str(error))
-    assert all(line.isprintable() for line in refusals)
 
 
 @pytest.mark.parametrize("value", ["3e9", "-3e9", "1e30"])

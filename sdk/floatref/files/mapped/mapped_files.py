@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
-from floatref.files.cut_files import watch
+from floatref.files.mapped.cut_files import watch
 from floatref.files.sources import open_bytes
 
 

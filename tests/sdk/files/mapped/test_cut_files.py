@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from floatref.files.cut_files import CutFile
-from floatref.files.mapped_files import map_bytes
+from floatref.files.mapped.cut_files import CutFile
+from floatref.files.mapped.mapped_files import map_bytes
 from floatref.files.samples import read_samples
 
 pytestmark = pytest.mark.skipif(
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.skipif(
 FOREIGN = """
 import mmap, os, sys
 from pathlib import Path
-from floatref.files.mapped_files import map_bytes
+from floatref.files.mapped.mapped_files import map_bytes
 map_bytes(Path(sys.argv[1]))
 with open(sys.argv[2], "rb") as file:
     mapped = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
@@ -30,7 +30,7 @@ mapped[50000]
 IN_A_THREAD = """
 import os, sys, threading
 from pathlib import Path
-from floatref.files.mapped_files import map_bytes
+from floatref.files.mapped.mapped_files import map_bytes
 mapped = map_bytes(Path(sys.argv[1]))
 os.truncate(sys.argv[1], 0)
 thread = threading.Thread(target=lambda: print(mapped.sum()))
