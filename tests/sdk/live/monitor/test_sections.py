@@ -1,5 +1,7 @@
 """Sections of a stream are those of `floatref iri` over the same points, in bounded memory."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import Phase, given, settings
@@ -140,6 +142,22 @@ def test_provisional_sections_follow_the_final_ones_and_never_lie_on_them(made):
     numbers = starts[starts > 2100.0] / SECTION_M
     assert numbers.size >= 3
     assert np.abs(numbers - np.rint(numbers)).max() < 1e-3
+
+
+@pytest.mark.parametrize("before_m", [1.0, 5.0, 10.5, 12.0])
+def test_a_stretch_that_begins_at_the_end_of_a_section_counts_there(made, before_m):
+    profile = made.profile(3, 600.0, 0.25, sigma=False)
+    track = profile.tracks[0]
+    place = np.arange(track.valid.size) * 0.25
+    cut = replace(track, valid=np.isfinite(place) & (place > 2.0 * SECTION_M - before_m))
+    profile = replace(profile, tracks=(cut,))
+    sections = Sections(True)
+    for points in made.points(profile, 3, most_m=30.0):
+        sections.add(points)
+    expected = expected_of(profile)
+    assert expected["left"][1].counted_share > 0.0
+    for number, section in enumerate(sections.finished):
+        assert_equal(section, number, expected)
 
 
 @pytest.mark.parametrize("first", [0, 30, 643, 644, 645, 10_000])
