@@ -55,12 +55,13 @@ def licence_of(name: str) -> str:
 
 def stated(about: PackageMetadata) -> str:
     """Return what a package says of its licence: an expression, else classifiers, else text."""
-    if about["License-Expression"]:
-        return str(about["License-Expression"])
+    (expression,) = about.get_all("License-Expression") or [""]
+    if expression:
+        return str(expression)
     classified = [line for line in about.get_all("Classifier") or [] if line.startswith("License")]
     return (
         " AND ".join(line.rpartition(" :: ")[2] for line in classified)
-        or str(about["License"])[:80]
+        or " ".join(about.get_all("License") or [])[:80]
     )
 
 

@@ -39,6 +39,8 @@ READ = {
     "floatref channels file": "channels {x}",
     "floatref channels --dbc": "channels {can} --dbc {x}",
     "floatref allan recording": "allan {x}",
+    "floatref live --follow": "live --follow {x} --out {out}",
+    "floatref live --token-file": "live --listen 0 --token-file {x} --out {out}",
     "floatref tune recordings": "tune {x} --reference {profile} --out {out}.json",
     "floatref tune --reference": "tune {run} --reference {x} --out {out}.json",
     "floatref tune --settings": (
@@ -77,6 +79,7 @@ WRITTEN = {
     "floatref allan --plot": "allan {run} --plot {x}.png",
     "floatref tune --out": "tune {run} --reference {profile} --out {x}",
     "floatref tune --plot": "tune {run} --reference {profile} --out {out}.json --plot {x}.png",
+    "floatref live --out": "live --out {x}",
     "floatref vehicle --out": "vehicle {profile} --out {x}",
     "conformance run --report": "run --check stop --report {x}",
     "conformance simulate --out": "simulate const_16 --out {x}",

@@ -132,6 +132,8 @@ def _resolve_inside(name: str, place: Path) -> Path:
         folder = real_path(place).parent
         target = real_path(folder / name)
         target.is_file()
+        if target.is_symlink():
+            raise OSError("its links go round")
     except (OSError, ValueError, RuntimeError) as error:
         raise InputError(f"{prefix}: no possible file name; correct it") from error
     if not target.is_relative_to(folder):

@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures.ride.bump_template import heights_above_base
 from floatref.measures.roughness.areas import list_areas, share
 from floatref.measures.roughness.roughness_index import M_PER_KM, segment_edges
 from floatref.measures.roughness.roughness_profile import TENTH_OF_A_MILE_M
@@ -194,6 +193,8 @@ def grind_heights(trace: FloatArray, span: int, limit: float) -> FloatArray:
 
 def _grind_heights(trace: FloatArray, span: int, limit: float) -> FloatArray:
     """Return what `grind_heights` does, of the values that have ``span`` others on both sides."""
+    from floatref.measures.ride.bump_template import heights_above_base
+
     known = np.where(np.isfinite(trace), trace, np.inf)
     ahead, behind = _lowest_ahead(known, span), _lowest_ahead(known[::-1], span)[::-1]
     # No base is lower than the higher of the lowest values on both sides.
