@@ -87,6 +87,8 @@ def faults(
         _try_clean(clean, seed, jobs, pipelines or PIPELINES)
         return
     if out is not None:
+        from floatref.files.atomic import check_target
+
         check_target(out, overwrite=True)
     concerned = [f.name for f in FAULTS.values() if not nominal or f.sensor in NOMINAL_SENSORS]
     settings = StudySettings(
@@ -125,7 +127,7 @@ def _try_clean(count: int, seed: int, jobs: int, pipelines: tuple[str, ...]) -> 
 
 
 def _show(made: Study, as_json: bool, out: Path | None) -> None:
-    from floatref.files.atomic import check_target, replace_file
+    from floatref.files.atomic import replace_file
     from floatref_conformance.faults.study_document import print_study, study_document
     from floatref_conformance.render.terminal import PipedConsole
 
