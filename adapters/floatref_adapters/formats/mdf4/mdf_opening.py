@@ -58,9 +58,10 @@ def open_mdf(source: Path) -> OpenedMdf:
         except OSError as error:
             # An address beyond what any file can have.
             raise InputError(f"{first_line(error)}; the file is damaged, copy it again") from error
-        folder = Path(stack.enter_context(TemporaryDirectory(prefix="floatref-")))
-        records = folder / "records.mf4" if unfinished else source
+        folder, records = None, source
         if unfinished:
+            folder = Path(stack.enter_context(TemporaryDirectory(prefix="floatref-")))
+            records = folder / "records.mf4"
             _copy(stream, records)
             stream = stack.enter_context(records.open("rb+"))
         mdf = _open(MDF, stream, folder)
@@ -87,14 +88,14 @@ def _copy(stream: BinaryIO, copy: Path) -> None:
         raise InputError(f"its copy: {error.strerror}; set TMPDIR to a disk with room") from error
 
 
-def _open(MDF: Any, stream: BinaryIO, folder: Path) -> Any:
+def _open(MDF: Any, stream: BinaryIO, folder: Path | None) -> Any:
     fault = ""
     stream.seek(0)
     with quiet():
         try:
             return MDF(
                 stream,
-                temporary_folder=str(folder),
+                temporary_folder=str(folder) if folder else None,
                 process_bus_logging=False,
                 add_array_components=False,
             )
