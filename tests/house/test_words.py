@@ -45,6 +45,7 @@ ALLOWED: dict[str, dict[str, str]] = {
     "docs/road-prior-limits.md": {"| none |": "a value of the table's data file"},
     "docs/your-format.md": {"status=none": "an option of dd"},
     "sdk/floatref/cli/channels.py": {"none": "a value in the output of `floatref channels`"},
+    "sdk/floatref/live/monitor/page_server.py": {"'none'": "a value of a header"},
     "sdk/floatref/mapping/channel_map/units.py": {"none": "a unit as files write it"},
 }
 """By file, a part of the line and why it may stand there."""

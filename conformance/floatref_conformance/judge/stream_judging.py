@@ -50,7 +50,7 @@ class StreamPlan:
 
 
 def find_live_argv(device: Device) -> Sequence[str] | None:
-    """Return the command line of a process of ``device`` for one stream; None if it has none.
+    """Return the command line of a process of ``device`` for one stream; None without one.
 
     Raises DeviceError if the device declares what cannot be.
     """

@@ -13,7 +13,7 @@ from floatref.files.owners import own_name, sweep_once
 def make_scratch(purpose: str) -> Path:
     """Return a new folder where the system keeps temporary files (`TMPDIR`).
 
-    Its name has the mark of this process and ends with ``purpose``, a word. What killed processes
+    Its name has the mark of this process and ends with ``purpose``. What killed processes
     left beside it is removed first. Raises InputError if no folder can be made.
     """
     try:

@@ -22,9 +22,9 @@ SIZE, STORED, VALUES = 2, 3, 1
 KINDS = (5, 7, 8)
 """Fields of the structs of data pages, dictionaries and data pages of version 2."""
 GROUPS, COLUMNS, META, ENCRYPTED, PATH = 4, 1, 3, 8, 3
-"""Fields of the footer: its row groups, their columns, what is said of one, its key, its path."""
+"""Fields of the footer: its row groups, their columns, what one is, its key, its path."""
 COUNT, UNPACKED, PACKED, DATA_AT, DICTIONARY_AT = 5, 6, 7, 9, 11
-"""Fields of what is said of a column: its values, its bytes in memory and in the file, places."""
+"""Fields that describe a column: its values, its bytes in memory and in the file, places."""
 TROUBLE = (IndexError, KeyError, StopIteration, TypeError, AttributeError, UnicodeDecodeError)
 """What reading raises where the bytes are another thing than they should be."""
 

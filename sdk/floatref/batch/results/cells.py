@@ -9,7 +9,7 @@ digits. `read_cell` gives the text back. Columns of numbers are not concerned.
 import re
 
 FORMULA = re.compile(r"\s*[=+\-@＝＋－＠']")  # Spreadsheets of East Asia take these.
-"""What a formula begins with; the apostrophe, so that it can be told from ours."""
+"""What a formula begins with; the apostrophe, so that it is not taken for ours."""
 NUMBER = re.compile(r"[+-]?[0-9]+([.,][0-9]+)?([eE][+-]?[0-9]+)?")
 """A text that is a number is harmless, and remains one."""
 UNSAFE = re.compile(r"[\x00-\x1f\x7f-\x9f]|\\(?=x)")
