@@ -47,9 +47,9 @@ static double point_before(const axle_way *way, double place)
     double point = floor((place - way->distance[0]) / way->spacing_m);
     point = fmin(fmax(point, 0.0), way->last);
     if (point > 0.0 && point_at(way, point) > place)
-        point -= 1.0;
-    else if (point < way->last && point_at(way, point + 1.0) <= place)
-        point += 1.0;
+        return point - 1.0;
+    if (point < way->last && point_at(way, point + 1.0) <= place)
+        return point + 1.0;
     return point;
 }
 
@@ -161,7 +161,7 @@ static int filter_forward(const fr_pitch *pitch, const pt_arrays *a, int32_t cou
  * state is off P lambda. */
 static void smooth_pitch(const pt_gains *gains, const pt_arrays *a, int32_t count)
 {
-    double lambda[PT_STATES] = {0.0}, next[PT_STATES];
+    double lambda[PT_STATES] = {0}, next[PT_STATES];
     for (int32_t k = count - 1; k >= 0; k--) {
         double along = 0.0, change = 0.0;
         for (int32_t j = 0; j < PT_STATES; j++) {
