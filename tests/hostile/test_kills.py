@@ -5,7 +5,6 @@ run of the same command.
 """
 
 import random
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -18,13 +17,13 @@ Made = tuple[Path, dict[str, Path], list[Work]]
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Made]:
+def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
     """A folder, the sound files in it, and the commands that write, each run to its end once."""
     folder = tmp_path_factory.mktemp("kills")
     (folder / "sound").mkdir()
     sound = write_sound(folder / "sound")
     warm_up(warm_words(folder, sound))
-    yield folder, sound, measure_works(folder, sound)
+    return folder, sound, measure_works(folder, sound)
 
 
 @pytest.mark.parametrize("part", range(10))
