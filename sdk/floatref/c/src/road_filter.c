@@ -187,7 +187,7 @@ static void update_covariance(double variance, const double *gain,
     }
     for (int j = 0; j < FR_ROAD_STATES; j++) {
         double seen = p[ROAD_D][j];
-        for (int i = 0; i < FR_ROAD_STATES; i++)
+        for (int i = 0; i <= j; i++)
             p[i][j] -= gain[i] * seen;
     }
     for (int i = 0; i < FR_ROAD_STATES; i++) {

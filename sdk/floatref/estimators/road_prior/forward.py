@@ -249,7 +249,7 @@ def _update(
             p[i, j] -= seen * gain[j]
     for j in range(STATES):
         seen = p[CLEARANCE, j]
-        for i in range(STATES):
+        for i in range(j + 1):
             p[i, j] -= gain[i] * seen
     for i in range(STATES):
         for j in range(i, STATES):

@@ -1,8 +1,8 @@
 """1-sigma at marks is that of dense least squares in 50 digits: nothing of it is rounding.
 
 At a stop of a vehicle with an inertial unit it is a fraction of a millimetre, while the height is
-unknown by a metre. The equations are the reference's, where the road is a state. The nearer road and
-height are known to each other, the more digits a difference of both would lose.
+unknown by a metre. The equations are the reference's, where the road is a state. The better height
+and road are known against each other, the more digits a difference of both would lose.
 """
 
 from dataclasses import replace
