@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from floatref.errors import InputError
 from floatref.interfaces.pipeline import Context
-from floatref.stages.conditioning import RemoveGravity
+from floatref.stages.conditioning import FromFirst, RemoveGravity
 from floatref.stages.filters.butterworth import high_pass_b3x2, low_pass_b3
 from floatref.stages.integration import Combine, Integrate
 from floatref.stages.marks import SLOW_MPS, STOPPING_TIME_S, MarkDrive
@@ -86,5 +86,9 @@ def time_step(context: Context) -> Sequence[Stage]:
 
 
 def finish(context: Context) -> Sequence[Stage]:
-    """HPF_B3x2 over distance (5.3)."""
-    return high_pass_b3x2(ELEVATION, 1.0 / context.setting("cutoff_wavelength_m"))
+    """HPF_B3x2 over distance (5.3), of an elevation that counts from its first point.
+
+    A smoother moves the first height, which would be a step at the begin of the filter.
+    """
+    high_pass = high_pass_b3x2(ELEVATION, 1.0 / context.setting("cutoff_wavelength_m"))
+    return FromFirst(ELEVATION), *high_pass
