@@ -66,8 +66,11 @@ def second_integration(context: Context) -> Sequence[Stage]:
 
 
 def combine(context: Context) -> Sequence[Stage]:
-    """Floating reference height minus height (1.2)."""
-    return (Combine(),)
+    """Floating reference height minus height (1.2).
+
+    It counts from its first sample: a smoother moves that, a step for the filters behind.
+    """
+    return Combine(), FromFirst(ELEVATION)
 
 
 def project(context: Context) -> Sequence[Stage]:
@@ -86,9 +89,5 @@ def time_step(context: Context) -> Sequence[Stage]:
 
 
 def finish(context: Context) -> Sequence[Stage]:
-    """HPF_B3x2 over distance (5.3), of an elevation that counts from its first point.
-
-    A smoother moves the first height, which would be a step at the begin of the filter.
-    """
-    high_pass = high_pass_b3x2(ELEVATION, 1.0 / context.setting("cutoff_wavelength_m"))
-    return FromFirst(ELEVATION), *high_pass
+    """HPF_B3x2 over distance (5.3)."""
+    return high_pass_b3x2(ELEVATION, 1.0 / context.setting("cutoff_wavelength_m"))
