@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from floatref.errors import InputError
 from floatref.interfaces.pipeline import Context
-from floatref.stages.conditioning import FromFirst, RemoveGravity
+from floatref.stages.conditioning import RemoveGravity
 from floatref.stages.filters.butterworth import high_pass_b3x2, low_pass_b3
 from floatref.stages.integration import Combine, Integrate
 from floatref.stages.marks import SLOW_MPS, STOPPING_TIME_S, MarkDrive
@@ -66,11 +66,8 @@ def second_integration(context: Context) -> Sequence[Stage]:
 
 
 def combine(context: Context) -> Sequence[Stage]:
-    """Floating reference height minus height (1.2).
-
-    It counts from its first sample: a smoother moves that, a step for the filters behind.
-    """
-    return Combine(), FromFirst(ELEVATION)
+    """Floating reference height minus height (1.2)."""
+    return (Combine(),)
 
 
 def project(context: Context) -> Sequence[Stage]:
