@@ -52,7 +52,7 @@ def test_ci_runs_the_second_command() -> None:
     )
     assert found.stdout.strip() == COMMANDS[1]
     assert 'bash -c "$tests"' in script
-    assert '"$bin/pytest" -m slow' in script
+    assert '"$bin/pytest" -m "slow and not nightly"' in script
 
 
 def test_the_example_writes_a_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
