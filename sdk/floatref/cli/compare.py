@@ -22,7 +22,7 @@ from floatref.errors import InputError
 from floatref.files.sources import name_errors
 from floatref.measures import WAVEBANDS, Agreement, IriSettings, iri, on_common_grid
 from floatref.measures.locating.shift import Shift, find_shift, move
-from floatref.measures.roughness.wavebands import path_agreement
+from floatref.measures.roughness.path_signals import path_agreement
 from floatref.measures.valid_iri import CommonIri, iri_of_common_points
 from floatref.values.arrays import release
 from floatref.values.profile import Profile

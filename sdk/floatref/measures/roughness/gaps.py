@@ -4,7 +4,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray
-from floatref.values.scanning import first_where
+from floatref.values.scanning import chunks, first_where
 
 HIGHEST_M = 1e6
 """No road lies higher or lower than this, in m, whatever the datum."""
@@ -62,6 +62,9 @@ def bridge(elevation: FloatArray, missing: BoolArray | None = None) -> FloatArra
     edges = np.flatnonzero(np.diff(missing))
     ends = np.unique(np.concatenate((edges, edges + 1)))
     ends = ends[~missing[ends]]
-    bridged, gaps = elevation.copy(), np.flatnonzero(missing)
-    bridged[gaps] = np.interp(gaps, ends, elevation[ends])
+    bridged, gaps = np.empty(elevation.size), np.flatnonzero(missing)
+    # In pieces, so that a file is not in memory as a whole beside the copy.
+    for at, part in chunks(elevation):
+        bridged[at : at + part.size] = part
+    bridged[gaps] = np.interp(gaps, ends, bridged[ends])
     return bridged

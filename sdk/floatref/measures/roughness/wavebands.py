@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -10,12 +9,11 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.kernels.cut_off import high_pass_wavelength_setting
-from floatref.measures.roughness.agreement import Agreement, cross_correlation, on_common_grid
+from floatref.measures.roughness.agreement import Agreement, cross_correlation
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.display.similar_names import suggest
-from floatref.values.profile import Profile
 from floatref.values.scanning import chunks
 
 
@@ -116,59 +114,6 @@ def agreement(
     common = common_stretch(np.isfinite(p) & np.isfinite(q))
     p_band, q_band = (band_signal(z[common], interval_m, band) for z in (p, q))
     return cross_correlation(p_band, q_band, interval_m, max_offset_m)
-
-
-class PathSignals(NamedTuple):
-    """A wheel path of a reference and of a profile through one filter, at the same points."""
-
-    reference: FloatArray
-    profile: FloatArray
-    interval_m: float
-
-    @classmethod
-    def of(
-        cls, reference: Profile, profile: Profile, name: str, band: str, of_valid: bool = False
-    ) -> "PathSignals":
-        """Return the signals in ``band`` of the wheel path ``name``, on the reference's points.
-
-        With ``of_valid`` all points that are not valid in both are bridged. An elevation is in
-        memory only until it is filtered: of an hour of road there is room for two signals, not for
-        four. Raises InputError as `on_common_grid` and the filters do.
-        """
-        one, other = (replace(each, tracks=(each.track(name),)) for each in (reference, profile))
-        expected, found = on_common_grid(one, other)
-        p, q, interval_m = expected[name].elevation, found[name].elevation, expected.interval_m
-        both = np.ones(p.size, dtype=np.bool_)
-        for track in (expected[name], found[name]):
-            both &= track.valid if of_valid else np.isfinite(track.elevation)
-            release(track.elevation)
-        release(other[name].elevation)
-        del expected, found, other, track
-        common = common_stretch(both)
-        missing = ~both[common] if of_valid else None
-        del both
-        q = bridge(q[common], missing)
-        q_band = band_signal(q, interval_m, band)
-        del q
-        bridged = bridge(p[common], missing)
-        # Bridged, it is a copy, and what was read of the file would stay beside it.
-        release(p)
-        return cls(band_signal(bridged, interval_m, band), q_band, interval_m)
-
-
-def path_agreement(
-    reference: Profile,
-    profile: Profile,
-    name: str,
-    band: str = "iri",
-    max_offset_m: float = 1.0,
-) -> Agreement:
-    """Return the `agreement` of the wheel path ``name`` of two profiles, on the reference's points.
-
-    Raises InputError as `on_common_grid` and `agreement`.
-    """
-    signals = PathSignals.of(reference, profile, name, band)
-    return cross_correlation(signals.reference, signals.profile, signals.interval_m, max_offset_m)
 
 
 def pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
