@@ -11,11 +11,11 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures.roughness.gaps import bridge
-from floatref.measures.roughness.pieces_of_road import RUN_IN_WAVES, cut_road
+from floatref.measures.roughness.pieces_of_road import RUN_IN_WAVES, cut_road, mean_slope
 from floatref.measures.roughness.wavebands import WAVEBANDS, waveband_slope
 from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.profile import ProfileTrack
-from floatref.values.scanning import chunks
+from floatref.values.scanning import chunks, flags_where
 
 BAND = "medium"
 """Its waveband, in `floatref.measures.WAVEBANDS`."""
@@ -82,7 +82,7 @@ def usable_points(track: ProfileTrack, interval_m: float) -> BoolArray:
     """Return the valid points of ``track``, or all measured ones if too few of them are."""
     if np.count_nonzero(track.valid) * interval_m >= LEAST_VALID_M:
         return track.valid
-    return np.isfinite(track.elevation)
+    return flags_where(np.isfinite, track.elevation)
 
 
 def _fill(
@@ -94,12 +94,13 @@ def _fill(
     """
     mean, factor = _level(z, usable)
     run_in_m = RUN_IN_WAVES * WAVEBANDS[BAND].long_m
+    mean_rise = mean_slope(z, interval_m) / factor
     for piece in cut_road(usable, run_in_m, interval_m):
         missing = ~usable[piece.points]
         rise = (bridge(z[piece.points], missing) - mean) / factor
         # What was read of a file would stay in memory.
         release(z)
-        slope = factor * waveband_slope(rise, interval_m, BAND)
+        slope = factor * waveband_slope(rise, interval_m, BAND, mean_rise)
         known = ~(missing[:-1] | missing[1:])
         slope[~known] = 0.0
         at = slice(*np.searchsorted(np.floor(place), (piece.begin, piece.end)))

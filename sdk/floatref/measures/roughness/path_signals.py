@@ -63,14 +63,26 @@ class _PathSignals:
         interval_m = self.path.interval_m
         limits = WAVEBANDS.get(self.band)
         run_in_m = RUN_IN_WAVES * limits.long_m if limits else CAR_RUN_IN_M
+        slopes = self._mean_slopes()
         for piece in cut_road(self.usable, run_in_m + largest * interval_m, interval_m):
             points = self.first + piece.first, self.first + piece.last
-            p = self._filter(self.path.expected(*points), piece)[piece.inside()].copy()
-            q = self._filter(self.path.found(*points), piece)[piece.inside(largest)]
+            p = self._filter(self.path.expected(*points), piece, slopes[0])[piece.inside()].copy()
+            q = self._filter(self.path.found(*points), piece, slopes[1])[piece.inside(largest)]
             q_first = piece.first + piece.inside(largest).start
             yield SignalPiece(piece.begin, p, q_first, np.multiply(q, self.sign, out=q))
 
-    def _filter(self, track: ProfileTrack, piece: RoadPiece) -> FloatArray:
+    def _mean_slopes(self) -> tuple[float, float]:
+        """Return the mean slopes in m/m of reference and profile over the stretch."""
+        ends = self.first, self.first + self.usable.size - 1
+        length_m = (self.usable.size - 1) * self.path.interval_m
+        p, q = (
+            [float(at(end, end + 1).elevation[0]) for end in ends]
+            for at in (self.path.expected, self.path.found)
+        )
+        return (p[1] - p[0]) / length_m, (q[1] - q[0]) / length_m
+
+    def _filter(self, track: ProfileTrack, piece: RoadPiece, mean_slope: float) -> FloatArray:
         """Return the elevation of ``track`` at the points of ``piece`` through the filter."""
         missing = ~self.usable[piece.points] if self.of_valid else None
-        return band_signal(bridge(track.elevation, missing), self.path.interval_m, self.band)
+        bridged = bridge(track.elevation, missing)
+        return band_signal(bridged, self.path.interval_m, self.band, mean_slope)

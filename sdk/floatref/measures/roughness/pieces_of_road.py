@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from floatref.measures.roughness.iri_settings import intervals_in
-from floatref.values.arrays import BoolArray
+from floatref.values.arrays import BoolArray, FloatArray
 
 PIECE = 1 << 20
 """Least intervals of a piece of a longer road: 8 MiB of float64."""
@@ -56,3 +56,12 @@ def cut_road(usable: BoolArray, run_in_m: float, interval_m: float) -> Iterator[
         first -= int(usable[first::-1].argmax())
         last += int(usable[last:].argmax())
         yield RoadPiece(begin, end, first, last + 1)
+
+
+def mean_slope(elevation: FloatArray, interval_m: float) -> float:
+    """Return the mean slope in m/m of a road whose first and last point are usable; 0 of a point.
+
+    A piece that took its own mean off would differ from the road next to the road's ends.
+    """
+    rise = float(elevation[-1]) - float(elevation[0])
+    return rise / (max(elevation.size - 1, 1) * interval_m)

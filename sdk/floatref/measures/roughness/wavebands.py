@@ -58,11 +58,14 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     return filtered
 
 
-def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
+def waveband_slope(
+    elevation: FloatArray, interval_m: float, band: str, mean_slope: float | None = None
+) -> FloatArray:
     """Return the slope in m/m of ``elevation`` in ``band``, one value fewer than points.
 
     The slope less its mean is continued at both ends by its mirror image, as far as the band's
-    longest wavelength, which keeps the run-in of the filters outside. Gaps are bridged; ends
+    longest wavelength, which keeps the run-in of the filters outside. Of a piece of a road
+    ``mean_slope`` is that of the whole road, in m/m; else it is that of ``elevation``. Gaps are bridged; ends
     without elevation are refused. The low-pass is not applied where its cut-off is not above two
     intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one whose
     long end is not above two intervals. Source: 2.1.5.2.
@@ -75,17 +78,19 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
     if not np.isfinite(values[[0, -1]]).all():
         raise InputError("elevation starts or ends with NaN; cut the profile to what was measured")
     margin = math.ceil(limits.long_m / interval_m)
-    continued = _continue(bridge(values), interval_m, margin)
+    continued = _continue(bridge(values), interval_m, margin, mean_slope)
     return pass_band(continued, interval_m, limits)[margin : margin + values.size - 1]
 
 
-def _continue(elevation: FloatArray, interval_m: float, margin: int) -> FloatArray:
+def _continue(
+    elevation: FloatArray, interval_m: float, margin: int, mean_slope: float | None
+) -> FloatArray:
     """Return the slope of ``elevation`` less its mean, mirrored for ``margin`` at both ends."""
     continued = np.empty(elevation.size - 1 + 2 * margin)
     slope = continued[margin : margin + elevation.size - 1]
     for at, part in chunks(elevation, overlap=1):
         slope[at : at + part.size - 1] = np.diff(part) / interval_m
-    slope -= slope.mean()
+    slope -= slope.mean() if mean_slope is None else mean_slope
     # Of a long road the pieces next to the ends are all that is mirrored.
     before, behind = (
         np.pad(part, margin, mode="symmetric") for part in (slope[:margin], slope[-margin:])
@@ -126,16 +131,18 @@ def pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatAr
     return low_pass_b3x2(passed, interval_m, limits.short_m, out=passed)
 
 
-def band_signal(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
+def band_signal(
+    elevation: FloatArray, interval_m: float, band: str, mean_slope: float | None = None
+) -> FloatArray:
     """Return ``elevation`` in m through the filter of ``band``, one value fewer than points.
 
-    This is what `agreement` correlates: of a stretch that both profiles measured. Raises InputError
-    as the filters do.
+    This is what `agreement` correlates: of a stretch that both profiles measured. ``mean_slope`` is
+    that of `waveband_slope`. Raises InputError as the filters do.
     """
     if band == "iri":
         signal = iri_trace(elevation, interval_m)
     else:
-        signal = waveband_slope(elevation, interval_m, band)
+        signal = waveband_slope(elevation, interval_m, band, mean_slope)
     # What was read of a file would stay in memory.
     release(elevation)
     return signal
