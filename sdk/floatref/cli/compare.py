@@ -148,7 +148,7 @@ def _common_points(reference: Profile, profile: Profile, name: str) -> _Common:
 
 
 def _iris(track: ProfileTrack, both: BoolArray, interval_m: float) -> tuple[float, float, float]:
-    """Return the IRI in m/km where ``both`` are valid, the share of that, and that of all points."""
+    """Return the IRI in m/km where ``both`` are valid, its share, and the IRI of all points."""
     valid, share = iri_of_valid(replace(track, valid=both), interval_m)
     every = iri(track.elevation, interval_m)
     release(track.elevation)

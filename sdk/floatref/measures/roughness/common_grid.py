@@ -9,10 +9,9 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures.roughness.gaps import check_heights
-from floatref.values.arrays import BoolArray, FloatArray, release
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.scanning import CHUNK
-
+from floatref.values.scanning import CHUNK, flags_where
 
 SAME_POINT = 1e-6
 """Points nearer than this, in intervals, are the same point: start positions are rounded."""
@@ -77,14 +76,15 @@ class CommonPath:
 
     def usable(self, of_valid: bool) -> BoolArray:
         """Return which common points are valid in both, or else measured in both, shape (n,)."""
+        mine, its = (
+            t.valid if of_valid else flags_where(np.isfinite, t.elevation)
+            for t in (self.reference, self.profile)
+        )
         both = np.empty(self.size, dtype=np.bool_)
         for first in range(0, self.size, CHUNK):
-            end = min(first + CHUNK, self.size)
-            p, q = self.expected(first, end), self.found(first, end)
-            flags = [t.valid if of_valid else np.isfinite(t.elevation) for t in (p, q)]
-            np.logical_and(*flags, out=both[first:end])
-            release(p.elevation)
-            release(q.elevation)
+            here = slice(self._first + first, self._first + min(first + CHUNK, self.size))
+            low, high, _ = _neighbours(self._places.at(here.start, here.stop))
+            both[first : first + CHUNK] = mine[here] & its[low] & its[high]
         return both
 
 
@@ -176,9 +176,17 @@ def _interpolate(track: ProfileTrack, places: _Places, cut: slice) -> ProfileTra
 
 def _at(track: ProfileTrack, index: FloatArray) -> tuple[FloatArray, BoolArray]:
     """Return elevation and validity of ``track`` at the fractional points ``index``."""
-    low = np.floor(index).astype(np.int64)
-    fraction = index - low
-    high = np.where(fraction > 0, low + 1, low)
+    low, high, fraction = _neighbours(index)
     z = track.elevation
     elevation = np.where(fraction > 0, z[low] + fraction * (z[high] - z[low]), z[low])
     return elevation, track.valid[low] & track.valid[high]
+
+
+def _neighbours(index: FloatArray) -> tuple[IndexArray, IndexArray, FloatArray]:
+    """Return the points before and after the fractional ``index``, and its part of the way.
+
+    Both are the same where it is a point.
+    """
+    low = np.floor(index).astype(np.int64)
+    fraction = index - low
+    return low, np.where(fraction > 0, low + 1, low), fraction

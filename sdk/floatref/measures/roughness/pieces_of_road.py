@@ -6,6 +6,7 @@ and ends at a usable point, so that bridges over the others are those of the who
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 from floatref.measures.roughness.iri_settings import intervals_in
@@ -51,7 +52,7 @@ def cut_road(usable: BoolArray, run_in_m: float, interval_m: float) -> Iterator[
     # As long as the run-in at least: half of the work is then on the pieces themselves.
     pieces = max(count // max(PIECE, run_in), 1)
     edges = [count * k // pieces for k in range(pieces + 1)]
-    for begin, end in zip(edges[:-1], edges[1:], strict=True):
+    for begin, end in pairwise(edges):
         first, last = max(begin - run_in, 0), min(end + run_in, count)
         first -= int(usable[first::-1].argmax())
         last += int(usable[last:].argmax())

@@ -65,10 +65,10 @@ def waveband_slope(
 
     The slope less its mean is continued at both ends by its mirror image, as far as the band's
     longest wavelength, which keeps the run-in of the filters outside. Of a piece of a road
-    ``mean_slope`` is that of the whole road, in m/m; else it is that of ``elevation``. Gaps are bridged; ends
-    without elevation are refused. The low-pass is not applied where its cut-off is not above two
-    intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one whose
-    long end is not above two intervals. Source: 2.1.5.2.
+    ``mean_slope`` is that of the whole road, in m/m; else it is that of ``elevation``. Gaps are
+    bridged; ends without elevation are refused. The low-pass is not applied where its cut-off is
+    not above two intervals: the profile holds nothing shorter. Raises InputError for an unknown
+    band or one whose long end is not above two intervals. Source: 2.1.5.2.
     """
     if band not in WAVEBANDS:
         raise InputError(f"band {band!r}: unknown; {suggest(band, BANDS, 'known:')}")
