@@ -25,9 +25,10 @@ SPANS = st.lists(st.tuples(st.integers(1, COUNT - 2), st.integers(1, 3000)), max
 
 
 def road(seed: int, spans: list[tuple[int, int]], missing: bool) -> Profile:
-    """Return 6 km on a grade, which are not valid, or not measured, in ``spans``."""
+    """Return 6 km over a hill of 20 m, which are not valid, or not measured, in ``spans``."""
     draw = np.random.default_rng(seed)
-    z = np.cumsum(draw.normal(0.004, 1e-3, COUNT))
+    z = np.cumsum(draw.normal(0.0, 1e-3, COUNT))
+    z += 20.0 * np.sin(2.0 * np.pi * np.arange(COUNT) / COUNT)
     valid = np.ones(COUNT, dtype=np.bool_)
     for first, count in spans:
         valid[first : min(first + count, COUNT - 1)] = False
