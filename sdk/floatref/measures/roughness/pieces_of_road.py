@@ -12,8 +12,8 @@ from typing import NamedTuple
 from floatref.measures.roughness.iri_settings import intervals_in
 from floatref.values.arrays import BoolArray, FloatArray
 
-PIECE = 1 << 20
-"""Least intervals of a piece of a longer road: 8 MiB of float64."""
+PIECE = 1 << 19
+"""Least intervals of a piece of a longer road: 4 MiB of float64."""
 CAR_RUN_IN_M = 400.0
 """Its slowest mode falls by e in 8.6 m, and by exp(−46) in this."""
 RUN_IN_WAVES = 12.0
