@@ -12,6 +12,8 @@ from pathlib import Path
 from click.testing import CliRunner
 
 from floatref.cli.main import main as floatref
+from floatref.cli.program.starting import start as start_floatref
+from floatref_conformance.__main__ import start as start_conformance
 from floatref_conformance.cli.main import main as conformance
 
 LONGEST_S = 120.0
@@ -20,6 +22,8 @@ MOST_BYTES = 600 << 20
 ALLOWED = range(6)
 """Exit codes that commands have."""
 TRACES = ("Traceback (most recent call last)", "the suite itself is at fault", "Exception ignored")
+
+STARTS = {"floatref": start_floatref, "conformance": start_conformance}
 
 
 @dataclass(frozen=True)
@@ -64,14 +68,20 @@ def run_attack(words: Sequence[str], folder: Path) -> Ended:
     here = Path(tempfile.mkdtemp(dir=folder))
     temporary = here / "temporary"
     temporary.mkdir()
+    process = begin(words, here, temporary)
+    code, hung, peak = wait(process)
+    text = (here / "printed").read_text(encoding="utf-8", errors="replace")
+    beside = [path.name for path in folder.rglob(".floatref-*")]
+    left = (*sorted(path.name for path in temporary.iterdir()), *beside, *survivors(process))
+    return Ended(tuple(words), code, hung, text, peak, left)
+
+
+def begin(words: Sequence[str], here: Path, temporary: Path) -> int:
+    """Return the process that runs ``words`` in ``here``, in a session of its own."""
     process = os.fork()
     if process == 0:
         _become(words, here, temporary)
-    code, hung, peak = _wait(process)
-    text = (here / "printed").read_text(encoding="utf-8", errors="replace")
-    beside = [path.name for path in folder.rglob(".floatref-*")]
-    left = (*sorted(path.name for path in temporary.iterdir()), *beside, *_survivors(process))
-    return Ended(tuple(words), code, hung, text, peak, left)
+    return process
 
 
 def _become(words: Sequence[str], here: Path, temporary: Path) -> None:
@@ -87,8 +97,8 @@ def _become(words: Sequence[str], here: Path, temporary: Path) -> None:
             os.dup2(source, target)
         sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
         sys.stderr = open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
-        group = conformance if words[0] == "conformance" else floatref
-        group.main(args=list(words[1:]), prog_name=words[0])
+        sys.argv = list(words)
+        STARTS[words[0]]()
     except SystemExit as end:
         code = end.code if isinstance(end.code, int) else 0 if end.code is None else 1
     except BaseException:
@@ -101,7 +111,7 @@ def _become(words: Sequence[str], here: Path, temporary: Path) -> None:
         os._exit(code)
 
 
-def _wait(process: int) -> tuple[int, bool, int]:
+def wait(process: int) -> tuple[int, bool, int]:
     """Return exit code, whether it had to be killed, and its peak of memory in bytes."""
     end, hung = time.monotonic() + LONGEST_S, False
     while True:
@@ -114,7 +124,7 @@ def _wait(process: int) -> tuple[int, bool, int]:
         time.sleep(0.005)
 
 
-def _survivors(group: int) -> tuple[str, ...]:
+def survivors(group: int) -> tuple[str, ...]:
     """Return a name if processes of the session are still there."""
     try:
         os.killpg(group, 0)
