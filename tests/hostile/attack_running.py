@@ -19,6 +19,8 @@ from floatref_conformance.cli.main import main as conformance
 LONGEST_S = 120.0
 """A command that takes longer hangs: the files are small."""
 MOST_BYTES = 600 << 20
+LOADED_BYTES = 250 << 20
+"""What a process takes that has loaded what commands need, and nothing else."""
 ALLOWED = range(6)
 """Exit codes that commands have."""
 TRACES = ("Traceback (most recent call last)", "the suite itself is at fault", "Exception ignored")
@@ -63,17 +65,26 @@ def warm_up(words: Iterable[Sequence[str]]) -> None:
 def run_attack(words: Sequence[str], folder: Path) -> Ended:
     """Run ``words``, a program and its arguments, with temporary files in a new part of ``folder``.
 
-    Linux alone counts memory in KiB.
+    Its memory is what it took beyond that of this process, which may hold much of earlier work, and
+    `LOADED_BYTES`. Linux alone counts memory in KiB.
     """
     here = Path(tempfile.mkdtemp(dir=folder))
     temporary = here / "temporary"
     temporary.mkdir()
+    before = resident_bytes()
     process = begin(words, here, temporary)
     code, hung, peak = wait(process)
+    peak = LOADED_BYTES + max(0, peak - before)
     text = (here / "printed").read_text(encoding="utf-8", errors="replace")
     beside = [path.name for path in folder.rglob(".floatref-*")]
     left = (*sorted(path.name for path in temporary.iterdir()), *beside, *survivors(process))
     return Ended(tuple(words), code, hung, text, peak, left)
+
+
+def resident_bytes() -> int:
+    """Return the memory of this process."""
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
 
 
 def begin(words: Sequence[str], here: Path, temporary: Path) -> int:
