@@ -2,19 +2,24 @@
 
 Writes 72 km of two wheel paths with 1-σ, a stop every 2.4 km whose points are not valid, at 25 mm
 and at 5.08 mm, to a temporary folder in pieces; the reference of `compare` is the same road,
-measured again. Each command runs in a fresh process. Prints its time and peak resident memory. Run
-as ``python tests/benchmarks/bench_measures_memory.py [--length 72000]``, with TMPDIR naming a
-folder with room for 1.2 GB.
+measured again. Each command runs in a fresh process. Prints its time and peak resident memory, as
+the system counts it for a process that has ended, and VmHWM of ``/proc`` where there is one, read
+while it runs. Run as ``python tests/benchmarks/bench_measures_memory.py [--length 72000]
+[--only "65 m apart"]``, with TMPDIR naming a folder with room for 1.2 GB.
 """
 
 import argparse
 import json
+import os
+import subprocess
+import sys
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
 from bench_memory import append
-from bench_view import run
+from timing import RUN
 
 INTERVALS_M = (0.025, 0.00508)
 TRACKS = ("left", "right")
@@ -79,6 +84,7 @@ def main() -> None:
     """Write both profiles, run every command, and print one line for each."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--length", type=float, default=72_000.0)
+    parser.add_argument("--only", choices=[*COMMANDS, *OFFSETS_M], help="Run one of them.")
     given = parser.parse_args()
     print(f"{given.length:g} m, two wheel paths with 1-sigma (limit {LIMIT_MB} MB)")
     for interval_m in INTERVALS_M:
@@ -86,16 +92,46 @@ def main() -> None:
             profile = write_profile(Path(name) / "run", given.length, interval_m)
             again = write_profile(Path(name) / "again", given.length, interval_m, 1e-4)
             for what, words in COMMANDS.items():
-                show(interval_m, what, *words, str(profile))
+                if given.only in (None, what):
+                    show(interval_m, what, *words, str(profile))
             for what, start_m in OFFSETS_M.items():
                 write_document(profile, interval_m, start_m)
-                show(interval_m, what, "compare", str(again), str(profile))
+                if given.only in (None, what):
+                    show(interval_m, what, "compare", str(again), str(profile))
 
 
 def show(interval_m: float, what: str, *words: str) -> None:
     """Run a command and print its time and peak memory."""
-    seconds, peak_mb = run(*words, "--json")
-    print(f"{1000.0 * interval_m:6g} mm  {what:14} {seconds:7.1f} s {peak_mb:8.1f} MB", flush=True)
+    seconds, peak_mb, sampled_mb = measure(*words, "--json")
+    peaks = f"{peak_mb:8.1f} MB, VmHWM {sampled_mb:8.1f} MB"
+    print(f"{1000.0 * interval_m:6g} mm  {what:14} {seconds:7.1f} s {peaks}", flush=True)
+
+
+def measure(*words: str) -> tuple[float, float, float]:
+    """Run a command; return its seconds, its peak resident memory, and that read while it ran."""
+    begin, sampled_mb = time.perf_counter(), 0.0
+    command = [sys.executable, "-c", RUN, *words]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    while True:
+        ended, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if ended:
+            break
+        sampled_mb = max(sampled_mb, high_water_mb(process.pid))
+        time.sleep(0.01)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        raise SystemExit(f"{' '.join(words)}: exit code {process.returncode}")
+    unit = 1 if sys.platform == "darwin" else 1024
+    return time.perf_counter() - begin, usage.ru_maxrss * unit / 1e6, sampled_mb
+
+
+def high_water_mb(pid: int) -> float:
+    """Return VmHWM of a process in MB; 0 without ``/proc``, or once it has ended."""
+    try:
+        lines = Path(f"/proc/{pid}/status").read_text().splitlines()
+    except OSError:
+        return 0.0
+    return next((int(x.split()[1]) * 1024 / 1e6 for x in lines if x.startswith("VmHWM")), 0.0)
 
 
 if __name__ == "__main__":

@@ -20,12 +20,13 @@ from floatref.cli.printing import (
 from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
-from floatref.measures import WAVEBANDS, Agreement, IriSettings, iri, on_common_grid
+from floatref.measures import WAVEBANDS, Agreement, IriSettings, iri
 from floatref.measures.locating.shift import Shift, find_shift, move
-from floatref.measures.roughness.wavebands import path_agreement
-from floatref.measures.valid_iri import CommonIri, iri_of_common_points
-from floatref.values.arrays import release
-from floatref.values.profile import Profile
+from floatref.measures.roughness.common_grid import CommonPath
+from floatref.measures.roughness.path_signals import path_agreement
+from floatref.measures.valid_iri import CommonIri, iri_of_valid
+from floatref.values.arrays import BoolArray, release
+from floatref.values.profile import Profile, ProfileTrack
 
 OF_VALID = ("iri_of_valid_m_per_km", "iri_reference_of_valid_m_per_km")
 
@@ -133,17 +134,25 @@ class _Common:
 
 def _common_points(reference: Profile, profile: Profile, name: str) -> _Common:
     """Return what both have of the wheel path ``name``; InputError where they do not overlap."""
-    one, other = (replace(each, tracks=(each.track(name),)) for each in (reference, profile))
-    expected, found = on_common_grid(one, other)
-    p, q, interval = expected[name], found[name], expected.interval_m
+    path = CommonPath.of(reference, profile, name)
+    both = path.usable(of_valid=True)
     with name_errors(f"track {name}"):
-        valid = iri_of_common_points(p, q, interval)
-        found_m_per_km = iri(q.elevation, interval)
-        release(q.elevation)
-        expected_m_per_km = iri(p.elevation, interval)
-        release(p.elevation)
-    both = found_m_per_km, expected_m_per_km
-    return _Common(name, expected.start_m, expected.length_m, *both, valid)
+        # One after the other: an hour of both would be in memory together.
+        (expected, share, expected_of_all), (found, _, found_of_all) = (
+            _iris(points(0, path.size), both, path.interval_m)
+            for points in (path.expected, path.found)
+        )
+    length_m = (path.size - 1) * path.interval_m
+    valid = CommonIri(expected, found, share)
+    return _Common(name, path.start_m, length_m, found_of_all, expected_of_all, valid)
+
+
+def _iris(track: ProfileTrack, both: BoolArray, interval_m: float) -> tuple[float, float, float]:
+    """Return the IRI in m/km where ``both`` are valid, its share, and the IRI of all points."""
+    valid, share = iri_of_valid(replace(track, valid=both), interval_m)
+    every = iri(track.elevation, interval_m)
+    release(track.elevation)
+    return valid, share, every
 
 
 def _track_report(

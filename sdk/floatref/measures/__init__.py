@@ -42,7 +42,8 @@ from floatref.measures.ride.waveband_energy import (
     waveband_elevation,
     waveband_energy,
 )
-from floatref.measures.roughness.agreement import Agreement, cross_correlation, on_common_grid
+from floatref.measures.roughness.agreement import Agreement, cross_correlation
+from floatref.measures.roughness.common_grid import on_common_grid
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import GOLDEN_CAR, RIDE_NUMBER_CAR, QuarterCar
 from floatref.measures.roughness.roughness_index import Segment, iri, iri_segments, iri_trace

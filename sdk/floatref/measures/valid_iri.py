@@ -63,6 +63,8 @@ def sums_of_valid(
         z = track.elevation[stretch]
         sums[low:high] += rectified_sums(z, interval_m, inside, settings)
         counts[low:high] += np.diff(inside)
+        # What was read of a file would stay in memory.
+        release(z)
     return sums, counts
 
 
@@ -86,41 +88,39 @@ def iri_of_common_points(
     NaN where no stretch is long enough. Raises InputError as `profile_iri`.
     """
     both = reference.valid & profile.valid
-    expected, share = _named(replace(reference, valid=both), interval_m, STANDARD)
+    expected, share = iri_of_valid(replace(reference, valid=both), interval_m)
     # What was read of its file would stay in memory beside the other.
     release(reference.elevation)
-    found, _ = _named(replace(profile, valid=both), interval_m, STANDARD)
+    found, _ = iri_of_valid(replace(profile, valid=both), interval_m)
     release(profile.elevation)
     return CommonIri(expected, found, share)
 
 
-def _named(track: ProfileTrack, interval_m: float, settings: IriSettings) -> tuple[float, float]:
-    """Return what `_iri_of_valid` does, with the name of the wheel path in its errors."""
+def iri_of_valid(
+    track: ProfileTrack, interval_m: float, settings: IriSettings = STANDARD
+) -> tuple[float, float]:
+    """Return the IRI in m/km over all stretches of valid points, and their share of the road.
+
+    NaN and 0 without a stretch that is long enough. Raises InputError as `profile_iri`.
+    """
     try:
         # The window of the moving average checks the interval.
         settings.window(interval_m)
-        return _iri_of_valid(track, interval_m, settings)
+        edges = np.array([0, track.valid.size - 1], dtype=np.int64)
+        sums, counts = sums_of_valid(track, edges, interval_m, settings)
     except InputError as error:
         raise InputError(f"track {track.name}: {error}") from error
+    total, count = float(sums[0]), int(counts[0])
+    return (total / count, count / (track.valid.size - 1)) if count else (np.nan, 0.0)
 
 
 def _track_iri(track: ProfileTrack, interval_m: float, settings: IriSettings) -> TrackIri:
-    valid, share = _named(track, interval_m, settings)
+    valid, share = iri_of_valid(track, interval_m, settings)
     try:
         every = _iri_of_all(track, interval_m, settings)
     except InputError as error:
         raise InputError(f"track {track.name}: {error}") from error
     return TrackIri(track.name, valid, share, every)
-
-
-def _iri_of_valid(
-    track: ProfileTrack, interval_m: float, settings: IriSettings
-) -> tuple[float, float]:
-    """Return the IRI in m/km over all stretches of valid points, and their share of the road."""
-    edges = np.array([0, track.valid.size - 1], dtype=np.int64)
-    sums, counts = sums_of_valid(track, edges, interval_m, settings)
-    total, count = float(sums[0]), int(counts[0])
-    return (total / count, count / (track.valid.size - 1)) if count else (np.nan, 0.0)
 
 
 def _iri_of_all(track: ProfileTrack, interval_m: float, settings: IriSettings) -> float:

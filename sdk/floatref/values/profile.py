@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
-from floatref.values.arrays import BoolArray, FloatArray, frozen, release
+from floatref.values.arrays import BoolArray, FloatArray, frozen
 from floatref.values.display.html_table import html_table
 from floatref.values.display.iri_table import ProfileIri
 from floatref.values.display.short_text import (
@@ -23,6 +23,7 @@ from floatref.values.display.short_text import (
 )
 from floatref.values.display.similar_names import hint_at
 from floatref.values.display.views import view
+from floatref.values.scanning import first_where, flags_where
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -57,9 +58,8 @@ class ProfileTrack:
     ) -> "ProfileTrack":
         """Return a track; without ``valid`` every finite point is valid."""
         z = frozen(elevation)
-        mask = (
-            np.isfinite(z) if valid is None else np.asarray(valid, dtype=np.bool_) & np.isfinite(z)
-        )
+        finite = flags_where(np.isfinite, z)
+        mask = finite if valid is None else np.asarray(valid, dtype=np.bool_) & finite
         mask.flags.writeable = False
         return cls(name, z, mask, None if sigma is None else frozen(sigma))
 
@@ -68,20 +68,15 @@ class ProfileTrack:
         n = self.elevation.size
         if n == 0:
             raise InputError(f"track {self.name}: no points")
-        if np.isinf(self.elevation).any():
+        # In pieces: a file of an hour is never in memory as a whole.
+        if first_where(np.isinf, self.elevation) is not None:
             raise InputError(f"track {self.name}: infinite elevation; mark missing points as NaN")
         if self.valid.size != n or (self.sigma is not None and self.sigma.size != n):
             raise InputError(f"track {self.name}: elevation, valid and sigma differ in length")
-        if (self.valid & np.isnan(self.elevation)).any():
+        if (self.valid & flags_where(np.isnan, self.elevation)).any():
             raise InputError(f"track {self.name}: a point without elevation is marked valid")
-        # Looking at every point has read a mapped file into memory.
-        release(self.elevation)
-        if self.sigma is not None:
-            if (self.sigma < 0).any():
-                raise InputError(
-                    f"track {self.name}: sigma is below zero; give a standard deviation"
-                )
-            release(self.sigma)
+        if self.sigma is not None and first_where(lambda s: s < 0, self.sigma) is not None:
+            raise InputError(f"track {self.name}: sigma is below zero; give a standard deviation")
 
     def __repr__(self) -> str:
         """Return name, points and validity on one line."""

@@ -45,6 +45,14 @@ def every(stride: int, values: FloatArray) -> FloatArray:
     )
 
 
+def flags_where(condition: Callable[[FloatArray], BoolArray], values: FloatArray) -> BoolArray:
+    """Return which samples meet ``condition``, shape (N,)."""
+    met = np.empty(values.size, dtype=np.bool_)
+    for first, chunk in chunks(values):
+        met[first : first + chunk.size] = condition(chunk)
+    return met
+
+
 def first_where(condition: Callable[[FloatArray], BoolArray], values: FloatArray) -> int | None:
     """Return the index of the first sample that meets ``condition``, or None."""
     for first, chunk in chunks(values):

@@ -23,7 +23,7 @@ from floatref.measures.locating.profile_units import (
     height_unit,
 )
 from floatref.measures.locating.slopes import slope_of
-from floatref.measures.roughness.wavebands import path_agreement
+from floatref.measures.roughness.path_signals import path_agreement
 from floatref.values.profile import Profile
 
 MAX_OFFSET_M = 1.0

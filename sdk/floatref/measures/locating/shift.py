@@ -10,8 +10,7 @@ from floatref.errors import InputError
 from floatref.measures.locating.placement import Placement
 from floatref.measures.locating.placing import SURE, place
 from floatref.measures.locating.profile_units import METRE
-from floatref.measures.roughness.agreement import Agreement, cross_correlation
-from floatref.measures.roughness.wavebands import PathSignals
+from floatref.measures.roughness.path_signals import path_agreement
 from floatref.values.profile import Profile
 
 
@@ -92,15 +91,6 @@ class _Best(NamedTuple):
     correlation: float
 
 
-def _agree_valid(
-    reference: Profile, profile: Profile, name: str, band: str, sign: float
-) -> Agreement:
-    """Return the agreement in ``band`` of the points of a wheel path that are valid in both."""
-    signals = PathSignals.of(reference, profile, name, band, of_valid=True)
-    turned = np.multiply(signals.profile, sign, out=signals.profile)
-    return cross_correlation(signals.reference, turned, signals.interval_m)
-
-
 def _refine(reference: Profile, profile: Profile, shift_m: float, sign: float) -> _Best:
     """Return the shift within ±1 m of ``shift_m`` at which valid points agree best, to a sample.
 
@@ -110,9 +100,12 @@ def _refine(reference: Profile, profile: Profile, shift_m: float, sign: float) -
     offsets, correlations = [], []
     try:
         for name in reference:
-            offsets.append(_agree_valid(reference, moved, name, "iri", sign).offset_m)
-            best = _agree_valid(reference, moved, name, "medium", sign)
-            correlations.append(best.correlation)
+            rough, slope = (
+                path_agreement(reference, moved, name, band, of_valid=True, sign=sign)
+                for band in ("iri", "medium")
+            )
+            offsets.append(rough.offset_m)
+            correlations.append(slope.correlation)
     except InputError:
         return _Best(shift_m, math.nan)
     return _Best(round(shift_m + float(np.median(offsets)), 3), max(correlations))

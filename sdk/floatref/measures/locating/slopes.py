@@ -5,16 +5,20 @@ Hills, datum and the profilers' own high-pass lie above it, footprint and textur
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from floatref.errors import InputError
 from floatref.measures.roughness.gaps import bridge
-from floatref.measures.roughness.wavebands import waveband_slope
+from floatref.measures.roughness.pieces_of_road import RUN_IN_WAVES, cut_road, mean_slope
+from floatref.measures.roughness.wavebands import WAVEBANDS, waveband_slope
 from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.profile import ProfileTrack
+from floatref.values.scanning import chunks, flags_where
 
+BAND = "medium"
+"""Its waveband, in `floatref.measures.WAVEBANDS`."""
 STEP_M = 0.25
 """Between the points of a slope: six of them in the shortest wave."""
 CLIPPED_AT = 3.0
@@ -54,64 +58,81 @@ def slope_of(
     """Return the slope of ``track``, whose point 0 lies at ``start_m``; None without a valid point.
 
     Elevation may be in any unit: its mean is taken away first, and points that are not usable are
-    bridged.
+    bridged. A long road is filtered in pieces.
     """
     usable = usable_points(track, interval_m)
     if np.count_nonzero(usable) < 2 or interval_m >= 2.0:
         return None
     cut = slice(int(usable.argmax()), usable.size - int(usable[::-1].argmax()))
-    z = bridge(track.elevation[cut], ~usable[cut])
-    # Bridged, it is a copy, and what was read of the file would stay beside it.
-    release(track.elevation)
-    z, factor = _within_reach(z, z if z.flags.owndata else np.empty(z.size))
-    release(track.elevation)
+    z, usable = track.elevation[cut], usable[cut]
+    begin_m, count = start_m + interval_m * (cut.start + 0.5), usable.size - 1
+    first = math.ceil(begin_m / STEP_M)
+    last_m = begin_m + interval_m * (count - 1)
+    steps = STEP_M * np.arange(first, math.floor(last_m / STEP_M) + 1)
+    place = np.clip((steps - begin_m) / interval_m, 0.0, count - 1.0)
+    found = Slope(STEP_M * first, np.zeros(steps.size), np.zeros(steps.size, dtype=np.bool_))
     try:
-        slope = waveband_slope(z, interval_m, "medium")
+        _fill(found, place, z, usable, interval_m)
     except InputError:
         return None
-    del z
-    slope *= factor
-    known = usable[cut][:-1] & usable[cut][1:]
-    slope[~known] = 0.0
-    begin = start_m + interval_m * (cut.start + 0.5)
-    return _on_steps(begin, interval_m, slope, known, clipped)
+    return _clip(found) if clipped and found.measured.any() else found
 
 
 def usable_points(track: ProfileTrack, interval_m: float) -> BoolArray:
     """Return the valid points of ``track``, or all measured ones if too few of them are."""
     if np.count_nonzero(track.valid) * interval_m >= LEAST_VALID_M:
         return track.valid
-    return np.isfinite(track.elevation)
+    return flags_where(np.isfinite, track.elevation)
 
 
-def _within_reach(z: FloatArray, rise: FloatArray) -> tuple[FloatArray, float]:
-    """Return ``z`` about its mean and less by a factor, so that no filter refuses it, in ``rise``.
+def _fill(
+    found: Slope, place: FloatArray, z: FloatArray, usable: BoolArray, interval_m: float
+) -> None:
+    """Write the slope of ``z``, its values being at 0, 1, and so on, to ``found``, at ``place``.
 
-    ``rise`` may be ``z``.
+    InputError as `waveband_slope`.
     """
-    np.subtract(z, z.mean(), out=rise)
-    factor = max(float(rise.max()) / HIGHEST, -float(rise.min()) / HIGHEST, 1.0)
-    rise /= factor
-    return rise, factor
+    mean, factor = _level(z, usable)
+    run_in_m = RUN_IN_WAVES * WAVEBANDS[BAND].long_m
+    mean_rise = mean_slope(z, interval_m) / factor
+    for piece in cut_road(usable, run_in_m, interval_m):
+        missing = ~usable[piece.points]
+        rise = (bridge(z[piece.points], missing) - mean) / factor
+        # What was read of a file would stay in memory.
+        release(z)
+        slope = factor * waveband_slope(rise, interval_m, BAND, mean_rise)
+        known = ~(missing[:-1] | missing[1:])
+        slope[~known] = 0.0
+        at = slice(*np.searchsorted(np.floor(place), (piece.begin, piece.end)))
+        found.values[at], found.measured[at] = _between(slope, known, place[at] - piece.first)
 
 
-def _on_steps(
-    begin_m: float, interval_m: float, slope: FloatArray, known: BoolArray, clipped: bool
-) -> Slope:
-    """Return ``slope``, whose value 0 lies at ``begin_m``, linearly at whole steps."""
-    end_m = begin_m + interval_m * (slope.size - 1)
-    first = math.ceil(begin_m / STEP_M)
-    steps = STEP_M * np.arange(first, math.floor(end_m / STEP_M) + 1)
-    place = np.clip((steps - begin_m) / interval_m, 0.0, slope.size - 1.0)
+def _level(z: FloatArray, usable: BoolArray) -> tuple[float, float]:
+    """Return the mean of ``z``, and a factor by which no filter refuses it, less its mean."""
+    total, low, high = 0.0, np.inf, -np.inf
+    for at, part in chunks(z):
+        known = part[usable[at : at + part.size]]
+        total += float(known.sum())
+        low, high = float(known.min(initial=low)), float(known.max(initial=high))
+    mean = total / np.count_nonzero(usable)
+    return mean, max((high - mean) / HIGHEST, (mean - low) / HIGHEST, 1.0)
+
+
+def _between(
+    slope: FloatArray, known: BoolArray, place: FloatArray
+) -> tuple[FloatArray, BoolArray]:
+    """Return ``slope`` linearly at the fractional ``place``, and where it is known."""
     low = np.floor(place).astype(np.int64)
     high, part = np.minimum(low + 1, slope.size - 1), place - low
     measured = np.where(part < 0.999, known[low], True) & np.where(part > 0.001, known[high], True)
     between = slope[low] + part * (slope[high] - slope[low])
-    values = np.where(measured, between, 0.0)
-    if clipped and measured.any():
-        limit = CLIPPED_AT * float(np.quantile(np.abs(values[measured]), 0.9))
-        values = np.clip(values, -limit, limit)
-    return Slope(float(STEP_M * first), values, measured)
+    return np.where(measured, between, 0.0), measured
+
+
+def _clip(slope: Slope) -> Slope:
+    """Return ``slope`` within its limit."""
+    limit = CLIPPED_AT * float(np.quantile(np.abs(slope.values[slope.measured]), 0.9))
+    return replace(slope, values=np.clip(slope.values, -limit, limit))
 
 
 def align(slopes: Sequence[Slope]) -> tuple[Slope, ...]:

@@ -4,7 +4,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.arrays import BoolArray, FloatArray
-from floatref.values.scanning import first_where
+from floatref.values.scanning import chunks, first_where, flags_where
 
 HIGHEST_M = 1e6
 """No road lies higher or lower than this, in m, whatever the datum."""
@@ -31,11 +31,11 @@ def check_elevation(elevation: FloatArray, interval_m: float) -> FloatArray:
     values = np.ascontiguousarray(elevation, dtype=np.float64)
     if values.ndim != 1:
         raise InputError(f"elevation has shape {values.shape}; give one wheel path at a time")
-    if values.size and values.min() >= -HIGHEST_M and values.max() <= HIGHEST_M:
+    if first_where(lambda part: ~(np.abs(part) <= HIGHEST_M), values) is None and values.size:
         return values
-    if np.isinf(values).any():
+    if first_where(np.isinf, values) is not None:
         raise InputError("elevation is infinite in places; mark missing points as NaN")
-    if np.isnan(values).all():
+    if first_where(np.isfinite, values) is None:
         raise InputError(f"0 of {values.size} elevations are finite; give a measured profile")
     check_heights(values)
     return values
@@ -45,7 +45,7 @@ def measured_stretch(elevation: FloatArray) -> slice:
     """Return the points from the first to the last finite elevation."""
     if np.isfinite(elevation[[0, -1]]).all():
         return slice(0, elevation.size)
-    finite = np.isfinite(elevation)
+    finite = flags_where(np.isfinite, elevation)
     return slice(int(finite.argmax()), elevation.size - int(finite[::-1].argmax()))
 
 
@@ -55,13 +55,16 @@ def bridge(elevation: FloatArray, missing: BoolArray | None = None) -> FloatArra
     Without ``missing`` these are the points that are not finite.
     """
     if missing is None:
-        missing = ~np.isfinite(elevation)
+        missing = flags_where(lambda part: ~np.isfinite(part), elevation)
     if not missing.any():
         return elevation
     # Only the ends of gaps matter: a line through all points takes five times their room.
     edges = np.flatnonzero(np.diff(missing))
     ends = np.unique(np.concatenate((edges, edges + 1)))
     ends = ends[~missing[ends]]
-    bridged, gaps = elevation.copy(), np.flatnonzero(missing)
-    bridged[gaps] = np.interp(gaps, ends, elevation[ends])
+    bridged, gaps = np.empty(elevation.size), np.flatnonzero(missing)
+    # In pieces, so that a file is not in memory as a whole beside the copy.
+    for at, part in chunks(elevation):
+        bridged[at : at + part.size] = part
+    bridged[gaps] = np.interp(gaps, ends, bridged[ends])
     return bridged

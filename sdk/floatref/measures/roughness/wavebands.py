@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -10,12 +9,11 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.kernels.cut_off import high_pass_wavelength_setting
-from floatref.measures.roughness.agreement import Agreement, cross_correlation, on_common_grid
+from floatref.measures.roughness.agreement import Agreement, cross_correlation
 from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.display.similar_names import suggest
-from floatref.values.profile import Profile
 from floatref.values.scanning import chunks
 
 
@@ -60,14 +58,17 @@ def high_pass(elevation: FloatArray, interval_m: float, wavelength_m: float = 91
     return filtered
 
 
-def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
+def waveband_slope(
+    elevation: FloatArray, interval_m: float, band: str, mean_slope: float | None = None
+) -> FloatArray:
     """Return the slope in m/m of ``elevation`` in ``band``, one value fewer than points.
 
     The slope less its mean is continued at both ends by its mirror image, as far as the band's
-    longest wavelength, which keeps the run-in of the filters outside. Gaps are bridged; ends
-    without elevation are refused. The low-pass is not applied where its cut-off is not above two
-    intervals: the profile holds nothing shorter. Raises InputError for an unknown band or one whose
-    long end is not above two intervals. Source: 2.1.5.2.
+    longest wavelength, which keeps the run-in of the filters outside. Of a piece of a road
+    ``mean_slope`` is that of the whole road, in m/m; else it is that of ``elevation``. Gaps are
+    bridged; ends without elevation are refused. The low-pass is not applied where its cut-off is
+    not above two intervals: the profile holds nothing shorter. Raises InputError for an unknown
+    band or one whose long end is not above two intervals. Source: 2.1.5.2.
     """
     if band not in WAVEBANDS:
         raise InputError(f"band {band!r}: unknown; {suggest(band, BANDS, 'known:')}")
@@ -77,17 +78,19 @@ def waveband_slope(elevation: FloatArray, interval_m: float, band: str) -> Float
     if not np.isfinite(values[[0, -1]]).all():
         raise InputError("elevation starts or ends with NaN; cut the profile to what was measured")
     margin = math.ceil(limits.long_m / interval_m)
-    continued = _continue(bridge(values), interval_m, margin)
+    continued = _continue(bridge(values), interval_m, margin, mean_slope)
     return pass_band(continued, interval_m, limits)[margin : margin + values.size - 1]
 
 
-def _continue(elevation: FloatArray, interval_m: float, margin: int) -> FloatArray:
+def _continue(
+    elevation: FloatArray, interval_m: float, margin: int, mean_slope: float | None
+) -> FloatArray:
     """Return the slope of ``elevation`` less its mean, mirrored for ``margin`` at both ends."""
     continued = np.empty(elevation.size - 1 + 2 * margin)
     slope = continued[margin : margin + elevation.size - 1]
     for at, part in chunks(elevation, overlap=1):
         slope[at : at + part.size - 1] = np.diff(part) / interval_m
-    slope -= slope.mean()
+    slope -= slope.mean() if mean_slope is None else mean_slope
     # Of a long road the pieces next to the ends are all that is mirrored.
     before, behind = (
         np.pad(part, margin, mode="symmetric") for part in (slope[:margin], slope[-margin:])
@@ -118,59 +121,6 @@ def agreement(
     return cross_correlation(p_band, q_band, interval_m, max_offset_m)
 
 
-class PathSignals(NamedTuple):
-    """A wheel path of a reference and of a profile through one filter, at the same points."""
-
-    reference: FloatArray
-    profile: FloatArray
-    interval_m: float
-
-    @classmethod
-    def of(
-        cls, reference: Profile, profile: Profile, name: str, band: str, of_valid: bool = False
-    ) -> "PathSignals":
-        """Return the signals in ``band`` of the wheel path ``name``, on the reference's points.
-
-        With ``of_valid`` all points that are not valid in both are bridged. An elevation is in
-        memory only until it is filtered: of an hour of road there is room for two signals, not for
-        four. Raises InputError as `on_common_grid` and the filters do.
-        """
-        one, other = (replace(each, tracks=(each.track(name),)) for each in (reference, profile))
-        expected, found = on_common_grid(one, other)
-        p, q, interval_m = expected[name].elevation, found[name].elevation, expected.interval_m
-        both = np.ones(p.size, dtype=np.bool_)
-        for track in (expected[name], found[name]):
-            both &= track.valid if of_valid else np.isfinite(track.elevation)
-            release(track.elevation)
-        release(other[name].elevation)
-        del expected, found, other, track
-        common = common_stretch(both)
-        missing = ~both[common] if of_valid else None
-        del both
-        q = bridge(q[common], missing)
-        q_band = band_signal(q, interval_m, band)
-        del q
-        bridged = bridge(p[common], missing)
-        # Bridged, it is a copy, and what was read of the file would stay beside it.
-        release(p)
-        return cls(band_signal(bridged, interval_m, band), q_band, interval_m)
-
-
-def path_agreement(
-    reference: Profile,
-    profile: Profile,
-    name: str,
-    band: str = "iri",
-    max_offset_m: float = 1.0,
-) -> Agreement:
-    """Return the `agreement` of the wheel path ``name`` of two profiles, on the reference's points.
-
-    Raises InputError as `on_common_grid` and `agreement`.
-    """
-    signals = PathSignals.of(reference, profile, name, band)
-    return cross_correlation(signals.reference, signals.profile, signals.interval_m, max_offset_m)
-
-
 def pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatArray:
     """Return ``slope``, which it overwrites, through HPF_B3x2 and, where it can act, LPF_B3x2."""
     from floatref.measures.roughness.zero_phase import high_pass_b3x2, low_pass_b3x2
@@ -181,16 +131,18 @@ def pass_band(slope: FloatArray, interval_m: float, limits: Waveband) -> FloatAr
     return low_pass_b3x2(passed, interval_m, limits.short_m, out=passed)
 
 
-def band_signal(elevation: FloatArray, interval_m: float, band: str) -> FloatArray:
+def band_signal(
+    elevation: FloatArray, interval_m: float, band: str, mean_slope: float | None = None
+) -> FloatArray:
     """Return ``elevation`` in m through the filter of ``band``, one value fewer than points.
 
-    This is what `agreement` correlates: of a stretch that both profiles measured. Raises InputError
-    as the filters do.
+    This is what `agreement` correlates: of a stretch that both profiles measured. ``mean_slope`` is
+    that of `waveband_slope`. Raises InputError as the filters do.
     """
     if band == "iri":
         signal = iri_trace(elevation, interval_m)
     else:
-        signal = waveband_slope(elevation, interval_m, band)
+        signal = waveband_slope(elevation, interval_m, band, mean_slope)
     # What was read of a file would stay in memory.
     release(elevation)
     return signal
