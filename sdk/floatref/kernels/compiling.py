@@ -24,8 +24,20 @@ def compiled(function: Callable[P, R]) -> Callable[P, R]:
     numba refuses `cache=True` with RuntimeError when it finds no folder to write to (a
     read-only installation without a home); the kernel is then compiled in every process.
     """
+    return _compile(function, OPTIONS)
+
+
+def compiled_unfused(function: Callable[P, R]) -> Callable[P, R]:
+    """Return ``function`` as `compiled` does, with every product and every sum rounded.
+
+    Its results are those of a library that was compiled for any processor.
+    """
+    return _compile(function, {**OPTIONS, "fastmath": False})
+
+
+def _compile(function: Callable[P, R], given: dict[str, Any]) -> Callable[P, R]:
     inner = function.__name__.startswith("_")
-    options = {**OPTIONS, "no_cpython_wrapper": inner, "no_cfunc_wrapper": inner}
+    options = {**given, "no_cpython_wrapper": inner, "no_cfunc_wrapper": inner}
     try:
         kernel: Callable[P, R] = njit(cache=True, **options)(function)
     except RuntimeError:
