@@ -5,11 +5,12 @@ file or prints its help does not wait for it.
 """
 
 from collections.abc import Callable
-from functools import update_wrapper
+from functools import cache, update_wrapper
 from threading import RLock
 from typing import Any, Generic, ParamSpec, TypeVar
 
 from floatref.kernels.compile_trace import trace_compilation, trace_loads
+from floatref.kernels.garbage import pause_collector
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -52,6 +53,7 @@ class Kernel(Generic[P, R]):
                     made = njit(cache=True, **self._options)(self.py_func)
                 except RuntimeError:
                     made = njit(**self._options)(self.py_func)
+                _take_constants_as_values(made)
                 self._dispatcher, self._call = made, trace_loads(made)
             return self._dispatcher
 
@@ -121,18 +123,38 @@ def chosen(field: str, having: Callable[P, R], lacking: Callable[P, R]) -> Calla
 
 def _load_numba() -> Callable[..., Any]:
     """Return numba's decorator, once numba knows our kernels and choices."""
-    first = not _KNOWN
-    _KNOWN.add(True)
     from numba import njit
-    from numba.extending import typeof_impl
 
-    if first:
-        typeof_impl.register(Kernel)(lambda kernel, c: typeof_impl(kernel.dispatcher(), c))
-        trace_compilation()
+    _introduce_kernels()
     while _CHOICES:
         _CHOICES.pop(0)()
     decorator: Callable[..., Any] = njit
     return decorator
 
 
-_KNOWN: set[bool] = set()
+@cache
+def _introduce_kernels() -> None:
+    """Have numba know kernels, once in a process."""
+    from numba import types
+    from numba.core import event
+    from numba.extending import typeof_impl
+
+    pause_collector(event)
+    typeof_impl.register(Kernel)(lambda kernel, _: types.Dispatcher(kernel.dispatcher()))
+    trace_compilation()
+
+
+def _take_constants_as_values(dispatcher: Any) -> None:
+    """Have ``dispatcher`` compiled once for all integers that a compiled caller writes out.
+
+    numba would compile it again for each: nine times for the places of a matrix.
+    """
+    from numba import types
+
+    template_of = dispatcher.get_call_template
+
+    def get_call_template(args: Any, kws: Any) -> Any:
+        plain = {name: types.unliteral(each) for name, each in dict(kws).items()}
+        return template_of(tuple(map(types.unliteral, args)), plain)
+
+    dispatcher.get_call_template = get_call_template

@@ -62,7 +62,7 @@ def test_every_pipeline_takes_the_drive_and_is_stationary_in_it(recording, pipel
     order = settle(recording.setup, clocks_of(recording), pipeline)
     assert warming.drive(order, True) > 0
     distance = np.concatenate(
-        [piece.values for each in warming.made_up(order) for n, piece in each.items()
+        [piece.values for each in warming.made_up(order.clocks) for n, piece in each.items()
          if n.name == "distance"]
     )  # fmt: skip
     stands = np.diff(distance) == 0.0
