@@ -10,6 +10,7 @@ from math import floor
 from typing import Any, Literal
 
 import click
+
 from floatref.files.document import plain
 
 PIPED_WIDTH = 240
