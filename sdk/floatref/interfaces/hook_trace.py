@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Iterable
 
-from floatref.values.tracing import is_traced
+from floatref.values.display.tracing import is_traced
 
 HOOKS = "hooks", "1"
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from time import perf_counter
 from typing import Any
 
-from floatref.values.tracing import is_traced
+from floatref.values.display.tracing import is_traced
 
 WORD = "compile"
 
@@ -20,7 +20,8 @@ def trace_compilation() -> None:
     if is_traced(WORD):
         from numba.core import event
 
-        event.register("numba:compile", _listener(event.Listener))
+        events: Any = event
+        events.register("numba:compile", _listener(events.Listener))
 
 
 def trace_loads(dispatcher: Any) -> Callable[..., Any]:

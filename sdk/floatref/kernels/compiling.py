@@ -7,7 +7,7 @@ file or prints its help does not wait for it.
 from collections.abc import Callable
 from functools import cache, update_wrapper
 from threading import RLock
-from typing import Any, Generic, ParamSpec, TypeVar
+from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 from floatref.kernels.compile_trace import trace_compilation, trace_loads
 from floatref.kernels.garbage import pause_collector
@@ -151,10 +151,10 @@ def _take_constants_as_values(dispatcher: Any) -> None:
     """
     from numba import types
 
-    template_of = dispatcher.get_call_template
+    template_of, plain = dispatcher.get_call_template, cast(Any, types).unliteral
 
     def get_call_template(args: Any, kws: Any) -> Any:
-        plain = {name: types.unliteral(each) for name, each in dict(kws).items()}
-        return template_of(tuple(map(types.unliteral, args)), plain)
+        named = {name: plain(each) for name, each in dict(kws).items()}
+        return template_of(tuple(map(plain, args)), named)
 
     dispatcher.get_call_template = get_call_template

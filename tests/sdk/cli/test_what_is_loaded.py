@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from floatref import Profile, ProfileTrack, write_profile, write_recording
-from floatref.live.made_up_run import made_up_recording
+from floatref.cli.warm.made_up_run import made_up_recording
 
 ADAPTERS = {"asammdf", "can", "cantools", "h5py", "mcap", "nptdms", "pyarrow", "pynmea2"}
 NEVER = {

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from floatref import pipelines, process, write_recording
 from floatref.cli.main import main
-from floatref.live.made_up_run import made_up_recording
+from floatref.cli.warm.made_up_run import made_up_recording
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
