@@ -49,8 +49,8 @@ def warm(pipelines: tuple[str, ...], every: bool, jobs: int, as_json: bool) -> N
 
 def _warm_in_process(name: str, folder: Path) -> tuple[str, float]:
     """Process the made-up run in a process of its own; return the pipeline and the time in s."""
-    from floatref.files import write_recording
     from floatref.cli.warm.made_up_run import made_up_recording
+    from floatref.files import write_recording
 
     run, begin = folder / f"{name}-run", perf_counter()
     write_recording(made_up_recording(name), run)
