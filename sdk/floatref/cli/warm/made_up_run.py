@@ -18,7 +18,7 @@ from floatref.values.recording import Channel, Recording
 from floatref.values.vehicle_setup import VehicleSetup
 from floatref.vehicle_response.needs import FORCE as WHEEL_FORCE
 
-RATE_HZ, RESPONSE_HZ, GNSS = 16_000.0, 1000.0, "gnss_"
+RATE_HZ, RESPONSE_HZ, GNSS, QUALITY = 16_000.0, 1000.0, "gnss_", "gnss_quality"
 PATHS = {"left": 0.8, "right": -0.8}
 """Wheel paths and their places in m to the left."""
 LASER_AHEAD_M = 0.1
@@ -39,7 +39,8 @@ def made_up_recording(pipeline: str) -> Recording:
     of_paths = RESPONSE if asked.architecture == "response" else (FORCE, HEIGHT)
     rate_hz = RESPONSE_HZ if asked.architecture == "response" else RATE_HZ
     names = [ChannelId(name, path) for path in PATHS for name in of_paths]
-    names += [ChannelId(name) for name in (DISTANCE, *asked.channels, *asked.readings)]
+    quality = [QUALITY] if asked.readings else []
+    names += [ChannelId(n) for n in (DISTANCE, *asked.channels, *asked.readings, *quality)]
     clocks = {n: None if n.name.startswith(GNSS) else UniformClock.of(rate_hz) for n in names}
     pieces = list(made_up(clocks))
     channels = []
