@@ -43,6 +43,8 @@ def test_a_recording_compiles_nothing_after_it(tmp_path: Path) -> None:
     assert all(line.startswith("compile loaded") for line in traced)
 
 
+# Its inertial unit and its GNSS do not measure one motion, which a run states.
+@pytest.mark.filterwarnings("ignore::floatref.engine.run.FloatrefWarning")
 @pytest.mark.slow
 @pytest.mark.parametrize("pipeline", pipelines())
 def test_the_run_is_one_that_the_pipeline_takes(pipeline: str) -> None:
