@@ -42,6 +42,7 @@ COMMANDS = {
     ),
     "batch": ("floatref.cli.batch.command:batch", "process many recordings on a cluster"),
     "live": ("floatref.cli.live.command:live", "profiles while the vehicle drives"),
+    "warm": ("floatref.cli.warm.command:warm", "compile now what pipelines would compile later"),
     "vehicle": ("floatref.cli.vehicle:vehicle", "settings of a vehicle, from its runs"),
 }
 

@@ -1,6 +1,7 @@
 """Output of commands: one JSON object, or tables that are plain when piped."""
 
 import json
+import os
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -9,10 +10,6 @@ from math import floor
 from typing import Any, Literal
 
 import click
-from rich import box
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
 
 from floatref.files.document import plain
 
@@ -58,6 +55,11 @@ def print_table(
 
     Cells of the columns named in ``whole`` are not broken, however narrow the terminal is.
     """
+    from rich import box
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
     terminal = sys.stdout.isatty()
     console = Console(file=sys.stdout, width=None if terminal else PIPED_WIDTH, emoji=False)
     style = box.SIMPLE_HEAD if terminal else None
@@ -103,6 +105,11 @@ def print_areas(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]
         click.echo(f"{title}: 0 areas\n")
 
 
+def _may_be_terminal() -> bool:
+    """Return whether rich, which takes a while to load, could draw a bar on standard error."""
+    return sys.stderr.isatty() or not {"TTY_COMPATIBLE", "FORCE_COLOR"}.isdisjoint(os.environ)
+
+
 @contextmanager
 def progress_bar(
     label: str, quiet: bool, before: str | None = None
@@ -111,11 +118,14 @@ def progress_bar(
 
     ``before`` is shown until its first call.
     """
+    if quiet or not _may_be_terminal():
+        yield None
+        return
     from rich.console import Console
     from rich.progress import Progress
 
     console = Console(stderr=True)
-    if quiet or not console.is_terminal:
+    if not console.is_terminal:
         yield None
         return
     with Progress(console=console, transient=True) as bar:

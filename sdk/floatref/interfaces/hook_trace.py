@@ -1,17 +1,16 @@
 """Which plug-in was called for which hook, printed where the environment asks for it."""
 
-import os
 import sys
 from collections.abc import Iterable
 
-VARIABLE = "FLOATREF_TRACE"
-HOOKS = frozenset({"hooks", "1"})
+from floatref.values.display.tracing import is_traced
+
+HOOKS = "hooks", "1"
 
 
 def trace_hook(plugin: str, hook: str, outcome: str) -> None:
     """Print which plug-in was called, for which hook, and the outcome, if hooks are traced."""
-    words = {word.strip() for word in os.environ.get(VARIABLE, "").split(",")}
-    if words & HOOKS:
+    if is_traced(*HOOKS):
         print(f"hook {hook}: plug-in {plugin}: {outcome}", file=sys.stderr)
 
 

@@ -6,7 +6,7 @@ to be compiled. The drive is made up: a body that bounces over a few waves, brak
 and goes on. What comes of it is thrown away, and so is a refusal of it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import cache
 from math import ceil, pi
@@ -18,6 +18,7 @@ from floatref.live.declared_channels import Piece
 from floatref.live.following import Following, Order
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+from floatref.values.clock import UniformClock
 from floatref.values.needs import VERTICAL_FORCES
 
 SPEED_MPS, CHANGE = 16.0, 4.0
@@ -25,7 +26,7 @@ SPEED_MPS, CHANGE = 16.0, 4.0
 STOPS_S, STANDS_S, LASTS_S = 8.0, 2.0, 17.0
 """Middle and length of the stop, and length of the drive, in s."""
 WAVES_M = (2.3, 7.0, 19.0)
-BOUNCE_HZ, BOUNCE_M = 1.3, 0.004
+BOUNCE_HZ, BOUNCE_M = 1.3, 0.001
 STEP_S = 0.01
 TIMED_HZ = 20.0
 """Rate in Hz of a channel whose samples have times."""
@@ -53,19 +54,19 @@ def drive(order: Order, provisional: bool) -> int:
     """
     following, count = Following(replace(order, pipelines=order.pipelines[:1]), provisional), 0
     try:
-        for pieces in made_up(order):
+        for pieces in made_up(order.clocks):
             count += sum(map(len, following.push(pieces)))
         return count + sum(map(len, following.finish()))
     except FloatrefError:
         return 0
 
 
-def made_up(order: Order) -> Iterator[dict[ChannelId, Piece]]:
-    """Yield the samples of the drive, a second at a time, on the clocks of ``order``."""
+def made_up(clocks: Mapping[ChannelId, UniformClock | None]) -> Iterator[dict[ChannelId, Piece]]:
+    """Yield the samples of the drive, a second at a time, on these ``clocks``."""
     rng = np.random.default_rng(0)
     for second in range(ceil(LASTS_S)):
         pieces = {}
-        for name, clock in order.clocks.items():
+        for name, clock in clocks.items():
             start_s = 0.0 if clock is None else clock.start_s
             rate_hz = TIMED_HZ if clock is None else float(clock.rate)
             ends = [ceil((second + k) * rate_hz) for k in (0, 1)]

@@ -121,6 +121,7 @@ CHECKS: dict[str, Callable[[Drawn], None] | str] = {
     "floatref allan": "shows noise of sensors of a recording",
     "floatref tune": "shows settings; its profiles are compared where the reference is known",
     "floatref live": "sends points with their flags, and no figure",
+    "floatref warm": "shows times; its profiles are thrown away",
     "floatref vehicle": "shows settings; a slip is that of stretches that two passes agree on",
     "conformance run": "judges a device on roads that are known, its flags among the quantities",
     "conformance replay": "as run",

@@ -15,15 +15,15 @@ def test_a_compiled_function_gives_the_same_result():
 
 
 def test_without_a_folder_for_the_cache_it_still_compiles(monkeypatch):
-    asked = []
+    asked, njit = [], numba.njit
 
     def without_folder(**options):
         asked.append(options.get("cache", False))
         if options.get("cache"):
             raise RuntimeError("cannot cache function: no locator available")
-        return numba.njit(**options)
+        return njit(**options)
 
-    monkeypatch.setattr(compiling, "njit", without_folder)
+    monkeypatch.setattr(numba, "njit", without_folder)
     assert compiling.compiled(doubled)(1.5) == 3.0
     assert asked == [True, False]
 

@@ -19,8 +19,8 @@ NOT_WARMED = {
 }
 FIRST_WINDOW = """
 import sys
-from numba.core.dispatcher import Dispatcher
 from floatref import start_stream
+from floatref.kernels.compiling import Kernel
 from floatref.live.as_live import clocks_of
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
@@ -30,7 +30,7 @@ def loaded():
     for module in list(sys.modules.values()):
         if getattr(module, "__name__", "").startswith("floatref."):
             for name, each in vars(module).items():
-                if isinstance(each, Dispatcher):
+                if isinstance(each, Kernel):
                     found |= {(module.__name__, name, str(s)) for s in each.signatures}
     return found | {(name,) for name in sys.modules if name.startswith(("scipy", "numba"))}
 
@@ -62,7 +62,7 @@ def test_every_pipeline_takes_the_drive_and_is_stationary_in_it(recording, pipel
     order = settle(recording.setup, clocks_of(recording), pipeline)
     assert warming.drive(order, True) > 0
     distance = np.concatenate(
-        [piece.values for each in warming.made_up(order) for n, piece in each.items()
+        [piece.values for each in warming.made_up(order.clocks) for n, piece in each.items()
          if n.name == "distance"]
     )  # fmt: skip
     stands = np.diff(distance) == 0.0

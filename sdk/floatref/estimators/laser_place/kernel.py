@@ -1,8 +1,8 @@
-"""Compiled loops: the half car's smoother of constant gain."""
+"""Compiled loops: the half car's smoother of constant gain, and filters in sections."""
 
 import numpy as np
 
-from floatref.kernels.compiling import compiled
+from floatref.kernels.compiling import compiled, compiled_unfused
 from floatref.values.arrays import FloatArray
 
 
@@ -57,3 +57,22 @@ def smooth_backward(back: FloatArray, predicted: FloatArray, filtered: FloatArra
             for j in range(size):
                 x += back[i, j] * change[j]
             filtered[k, i] = x
+
+
+@compiled_unfused
+def filter_sections(sections: FloatArray, states: FloatArray, x: FloatArray) -> None:
+    """Replace ``x`` by what the sections of second order make of it, one after the other.
+
+    ``sections`` has shape (m, 6), as `band.sections_of` returns them, and ``states`` (m, 2): what
+    each remembers before the first sample.
+    """
+    for s in range(sections.shape[0]):
+        b0, b1, b2 = sections[s, 0], sections[s, 1], sections[s, 2]
+        a1, a2 = sections[s, 4], sections[s, 5]
+        near, far = states[s, 0], states[s, 1]
+        for k in range(x.size):
+            value = x[k]
+            y = b0 * value + near
+            near = b1 * value - a1 * y + far
+            far = b2 * value - a2 * y
+            x[k] = y

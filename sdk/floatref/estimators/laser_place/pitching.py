@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from floatref.estimators.laser_place.band import filter_both_ways, sections_of
 from floatref.estimators.laser_place.half_car import PITCH, STATES, Gains, HalfCar
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.axle_setup import AxleSetup
@@ -11,7 +12,6 @@ from floatref.values.channels import STANDARD_GRAVITY
 
 SLOW_HZ, FAST_HZ = 0.3, 20.0
 """Frequencies of pitch that are modelled: above the bounce of no body, below its longest swing."""
-ORDER = 3
 POINT_M = 0.05
 """Interval of the road under the wheels, a fifth of the IRI's 250 mm."""
 SMOOTHED_S = 0.06
@@ -155,31 +155,22 @@ def second_derivative(distance: FloatArray, step: float) -> FloatArray:
 
 
 class _Band:
-    """Butterworth filters of `ORDER`, forward and backward, between `SLOW_HZ` and `FAST_HZ`."""
+    """Butterworth filters of third order, both ways, between `SLOW_HZ` and `FAST_HZ`."""
 
     def __init__(self, step: float) -> None:
-        from scipy.signal import butter
-
         self.step = step
-        self.slow = butter(ORDER, SLOW_HZ, "high", fs=1.0 / step, output="sos")
-        fast = min(FAST_HZ, 0.4 / step)
-        self.fast = butter(ORDER, fast, "low", fs=1.0 / step, output="sos")
+        self.slow = sections_of(SLOW_HZ, step, high=True)
+        self.fast = sections_of(min(FAST_HZ, 0.4 / step), step, high=False)
 
     def pass_band(self, x: FloatArray) -> FloatArray:
         """Return ``x`` between both frequencies, filtered as `height_of` does."""
         for _ in range(2):
-            x = self._both_ways(self.slow, x)
-        return self._both_ways(self.fast, x)
+            x = filter_both_ways(self.slow, x)
+        return filter_both_ways(self.fast, x)
 
     def height_of(self, acceleration: FloatArray) -> FloatArray:
         """Return the second integral of ``acceleration``, less what is slower than the band."""
         x = acceleration - acceleration.mean()
         for _ in range(2):
-            x = self._both_ways(self.slow, np.cumsum(x) * self.step)
-        return self._both_ways(self.fast, np.asarray(x))
-
-    def _both_ways(self, sections: FloatArray, x: FloatArray) -> FloatArray:
-        from scipy.signal import sosfiltfilt
-
-        found: FloatArray = sosfiltfilt(sections, x)
-        return found
+            x = filter_both_ways(self.slow, np.cumsum(x) * self.step)
+        return filter_both_ways(self.fast, x)

@@ -29,6 +29,7 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.measures.roughness.iri_settings import IriSettings
+from floatref.measures.roughness.overlap_add import convolve, middle
 from floatref.measures.roughness.roughness_index import STANDARD, iri_trace
 from floatref.values.arrays import FloatArray
 from floatref.values.scanning import CHUNK
@@ -86,14 +87,13 @@ def output_covariance(
 
     ``correlation_m`` is L of (1) in m. Read-only. Raises InputError for an interval above 2 m.
     """
-    from scipy.signal import oaconvolve
-
     response = _impulse_response(interval_m, settings)
     reach = _memory(interval_m)
-    own = oaconvolve(response, response[::-1])
+    own = convolve(response, response[::-1])
     lags = np.arange(-(reach + response.size - 1), reach + response.size)
     distance = np.abs(lags) * (interval_m / correlation_m)
-    found = oaconvolve((1.0 + distance) * np.exp(-distance), own, mode="valid")
+    whole = convolve((1.0 + distance) * np.exp(-distance), own)
+    found = middle(whole, lags.size - own.size + 1)
     covariance = np.ascontiguousarray(found[found.size // 2 :])
     covariance.flags.writeable = False
     return covariance
@@ -156,10 +156,8 @@ def _double_sum(signed: FloatArray, first: int, count: int, covariance: FloatArr
 
     ``signed`` is sgn(y_k) σ_k in m, 0 where nothing counts.
     """
-    from scipy.signal import oaconvolve
-
     lags = min(covariance.size, signed.size)
     both = np.concatenate((covariance[lags - 1 : 0 : -1], covariance[:lags]))
-    spread = oaconvolve(signed, both, mode="same")
+    spread = middle(convolve(signed, both), signed.size)
     inside = slice(first, first + count)
     return float(signed[inside] @ spread[inside])

@@ -1,0 +1,1 @@
+"""`floatref warm`: kernels compiled before the first recording."""
