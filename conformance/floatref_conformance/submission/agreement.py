@@ -1,0 +1,62 @@
+"""To which digits a figure has to agree when it is measured again, here or on another machine.
+
+- What is counted or decided agrees exactly: verdict, outcomes, class reached, numbers of cases and
+  alarms, and every figure that follows from figures of the archive.
+- A figure that is scored again from the stored profile and a truth that is simulated again agrees
+  within `SCORED` of the larger of value and limit: processors round differently.
+- A figure of a profile that the device makes again agrees within `REMADE`: its rounding adds up.
+- The truth agrees within `TRUTH_M` at every point.
+
+A figure nearer to its limit than that may change sides; the outcome is then said to be undecided
+by a machine like this.
+"""
+
+from collections.abc import Iterator
+from math import isnan
+
+from floatref_conformance.checks.verdict import CaseResult, Measurement
+
+SCORED = 1e-6
+REMADE = 1e-3
+TRUTH_M = 1e-6
+
+
+def agrees(one: float, other: float, scale: float, share: float) -> bool:
+    """Return whether two figures differ by no more than ``share`` of the largest of the three."""
+    if isnan(one) or isnan(other):
+        return isnan(one) and isnan(other)
+    # Two infinities of one sign differ by NaN.
+    return one == other or abs(one - other) <= share * max(abs(one), abs(other), abs(scale))
+
+
+def compare_results(stored: CaseResult, again: CaseResult, share: float) -> Iterator[str]:
+    """Yield in a line each what differs between a result and its repetition."""
+    for name in ("fault", "skipped", "false_alarms"):
+        before, now = getattr(stored, name), getattr(again, name)
+        if before != now:
+            yield f"{name.replace('_', ' ')} is {before}, here it is {now}"
+    if len(stored.measurements) != len(again.measurements):
+        yield f"{len(stored.measurements)} figures, here they are {len(again.measurements)}"
+        return
+    for before, now in zip(stored.measurements, again.measurements, strict=True):
+        yield from _compare(before, now, share)
+    for name in ("flagged_m", "early_m"):
+        if not agrees(getattr(stored, name), getattr(again, name), 1.0, share):
+            yield f"{name} is {getattr(stored, name):.7g}, here it is {getattr(again, name):.7g}"
+
+
+def _compare(stored: Measurement, again: Measurement, share: float) -> Iterator[str]:
+    what = f"{stored.quantity}, track {stored.track}"
+    if (stored.quantity, stored.track, stored.unit) != (again.quantity, again.track, again.unit):
+        yield f"{what}: here it is {again.quantity}, track {again.track}"
+        return
+    if dict(stored.limits) != dict(again.limits):
+        yield f"{what}: limits {_show(stored.limits)}, here they are {_show(again.limits)}"
+    scale = max(map(abs, again.limits.values()), default=0.0)
+    if not agrees(stored.value, again.value, scale, share):
+        yield f"{what}: {stored.value:.7g} {stored.unit}, here it is {again.value:.7g}"
+
+
+def _show(limits: object) -> str:
+    values = limits.values() if hasattr(limits, "values") else ()
+    return ", ".join(f"{limit:.7g}" for limit in values) or "no limit"
