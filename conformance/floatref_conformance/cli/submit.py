@@ -8,7 +8,6 @@ import click
 from floatref.errors import InputError
 from floatref.files import read_bytes
 from floatref.files.atomic import check_target
-from floatref.files.sources import check_file
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.cli.following import follow
 from floatref_conformance.cli.judging_options import Asked, judging_options, make_plan
@@ -52,6 +51,7 @@ FILE = click.Path(dir_okay=False, path_type=Path)
 @click.pass_context
 def submit(
     context: click.Context,
+    /,
     out: Path,
     files: tuple[Path, ...],
     statement: Path | None,
@@ -70,7 +70,8 @@ def submit(
     check_target(out, overwrite)
     stated = "" if statement is None else _read_statement(statement)
     if key is not None:
-        check_file(key)
+        # A key that cannot sign is refused before the run, not after it.
+        sign(b"", key)
     registry = load_registry(asked.edition)
     device = registry.device(asked.spec)
     with close_on_error(device):

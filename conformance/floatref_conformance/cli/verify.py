@@ -7,9 +7,10 @@ from typing import Any
 
 import click
 
-from floatref_conformance.cli.options import limit_time
+from floatref_conformance.cli.options import env_option, limit_time, pass_variables
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.text import printable
+from floatref_conformance.submission.device_again import GivenDevice
 from floatref_conformance.submission.findings import Verification
 from floatref_conformance.submission.stored_zip import read_archive
 from floatref_conformance.submission.verifying import Wanted
@@ -33,6 +34,14 @@ FORMAT = "conformance-verification/1"
     help="The device itself, to run it again.  [default: a built-in's, from the archive]",
 )
 @click.option(
+    "--device-file",
+    "files",
+    metavar="FILE",
+    type=click.Path(dir_okay=False, path_type=Path),
+    multiple=True,
+    help="A file that was hashed with the device; may be repeated.",
+)
+@click.option(
     "--device-timeout",
     metavar="SECONDS",
     type=click.FloatRange(min=0, min_open=True),
@@ -42,15 +51,18 @@ FORMAT = "conformance-verification/1"
     "--every-case", is_flag=True, help="Give the device every case again, not only what decides."
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@env_option
 @click.pass_context
 def verify(
     context: click.Context,
     archive: Path,
     signers: Path | None,
     spec: str | None,
+    files: tuple[Path, ...],
     device_timeout: float | None,
     every_case: bool,
     as_json: bool,
+    variables: tuple[str, ...],
 ) -> None:
     """Repeat what ARCHIVE rests on, offline, and say what was repeated and what was not.
 
@@ -60,9 +72,9 @@ def verify(
     members = read_archive(archive)
     given = None
     if spec is not None:
-        device = load_registry().device(spec)
-        limit_time(device, device_timeout)
-        given = (spec, device)
+        given = GivenDevice(spec, load_registry().device(spec), files)
+        limit_time(given.device, device_timeout)
+        pass_variables(given.device, variables)
     found = verify_members(members, Wanted(signers, given, every_case))
     click.echo(json.dumps(_document(found), indent=2) if as_json else _show(archive, found))
     context.exit(0 if found.is_confirmed else 1)

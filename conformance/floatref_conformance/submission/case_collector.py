@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from floatref_conformance.checks.streams.stream_catalogue import STREAM_CHECKS
 from floatref_conformance.checks.verdict import CaseResult, CheckResult, RunResult
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.judge.events import CaseFinished, Event, RunFinished
+from floatref_conformance.judge.events import CaseFinished, Event, RunFinished, ShrinkStarted
 
 
 @dataclass
@@ -22,12 +22,15 @@ class CaseCollector:
     results: dict[str, list[CaseResult]] = field(default_factory=dict)
     result: RunResult | None = None
     _worst: dict[str, CaseResult] = field(default_factory=dict)
+    _simplifying: set[str] = field(default_factory=set)
 
     def handle(self, event: Event) -> None:
         """Store what ``event`` says."""
         if isinstance(event, CaseFinished) and event.id not in STREAM_CHECKS:
             self.results.setdefault(event.id, []).append(replace(event.result, passes=()))
             self._keep_worst(event.id, event.result)
+        if isinstance(event, ShrinkStarted):
+            self._simplifying.add(event.id)
         if isinstance(event, RunFinished):
             self.result = event.result
 
@@ -44,7 +47,12 @@ class CaseCollector:
                     yield check.id, result
 
     def _keep_worst(self, id_: str, result: CaseResult) -> None:
-        """Store ``result`` if it is the worst so far; the first of equals, as in a report."""
+        """Store ``result`` if it is the worst so far; the first of equals, as in a report.
+
+        Cases that are tried to simplify a failing one do not count in a report.
+        """
+        if id_ in self._simplifying:
+            return
         if id_ not in self._worst or self._rank(result) > self._rank(self._worst[id_]):
             self._worst[id_] = result
 

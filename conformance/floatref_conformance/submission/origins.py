@@ -30,7 +30,7 @@ def hash_device(device: Device, spec: str, files: Iterable[Path] = ()) -> dict[s
     modules of its package; of `files:` the delivered profiles; of the others our own packages.
     Raises InputError for a file that cannot be read.
     """
-    named = {str(path): sha256_of(path) for path in files}
+    named = {path.name: sha256_of(path) for path in files}
     if isinstance(device, ExecDevice) and device.argv[: len(HOST)] == HOST:
         return _hash_package(device.argv[len(HOST)]) | named
     if isinstance(device, ExecDevice):

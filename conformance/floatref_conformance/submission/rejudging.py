@@ -1,6 +1,6 @@
-"""What decides is judged again: from the profiles in the archive, and on the device itself."""
+"""What decides is judged again, from the profiles in the archive."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,33 +8,28 @@ from floatref.errors import InputError
 from floatref_conformance.case_files import FOLDER as CASES
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.verdict import CaseResult
-from floatref_conformance.devices.interface import Description, Device
+from floatref_conformance.devices.interface import Description
 from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
-from floatref_conformance.judge.exercise import close, describe
 from floatref_conformance.judge.judging import describe_failure
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.report import NAME as REPORT
-from floatref_conformance.submission.agreement import REMADE, SCORED, compare_results
+from floatref_conformance.submission.agreement import SCORED, compare_results
 from floatref_conformance.submission.checksums import SUMS
 from floatref_conformance.submission.document import NAME, Submission
 from floatref_conformance.submission.findings import Verification
-from floatref_conformance.submission.origins import describe_environment, hash_device
+from floatref_conformance.submission.origins import describe_environment
 from floatref_conformance.submission.packing import RESULTS, write_cases
 from floatref_conformance.submission.rescoring import (
     StoredCase,
     compare_truth,
     count_other_inputs,
-    judge_on,
     list_stored,
     score_again,
 )
 from floatref_conformance.submission.signatures import SIGNATURES
 from floatref_conformance.submission.stored_answers import FOLDER as ANSWERS
 from floatref_conformance.submission.stored_answers import read_passes
-
-HARMLESS = ("builtin", "mutant")
-"""Kinds of devices that are started without being named: their code is in this checkout."""
 
 
 @dataclass(frozen=True)
@@ -152,62 +147,3 @@ def _note_inputs(repetition: Repetition, others: int) -> None:
         repetition.verification.not_repeated.append(
             f"the bits of {others} recordings: another processor rounds differently"
         )
-
-
-def repeat_device(
-    repetition: Repetition, given: tuple[str, Device] | None, every_case: bool
-) -> None:
-    """Run the device again, the one ``given`` or, of a harmless kind, the one of the archive."""
-    verification, spec = repetition.verification, repetition.submission.device["spec"]
-    if given is None and spec.partition(":")[0] not in HARMLESS:
-        verification.not_repeated.append("the device: give it with --device SPEC to run it again")
-        return
-    spec, device = given or (spec, repetition.registry.device(spec))
-    try:
-        count = _run_again(repetition, spec, device, every_case)
-    finally:
-        fault = close(device)
-    if fault and fault != repetition.submission.end_fault:
-        verification.contradict("device", f"when it was stopped, it {fault}")
-    verification.repeated.append(f"{count} cases on the device {spec}")
-
-
-def _run_again(repetition: Repetition, spec: str, device: Device, every_case: bool) -> int:
-    _compare_device(repetition, spec, device)
-    try:
-        description = describe(device)
-    except DeviceError as fault:
-        if str(fault) != repetition.submission.fault:
-            repetition.verification.contradict("device", str(fault))
-        return 0
-    count = 0
-    for case, before in _chosen(repetition, every_case):
-        check = repetition.registry.check(case.check)
-        edition = find_edition(repetition.submission.edition)
-        result = judge_on(device, check, case, description, edition)
-        count += 1
-        for difference in compare_results(before, result, REMADE):
-            where = f"device: {case.check}, {case.name}"
-            repetition.verification.contradict(where, difference)
-    return count
-
-
-def _chosen(repetition: Repetition, every_case: bool) -> Iterator[tuple[Case, CaseResult]]:
-    decisive = repetition.decisive
-    for id_, results in repetition.results.items():
-        for result in results:
-            case = Case.of(id_, result.parameters, result.name)
-            if every_case or (id_, case.digest) in decisive:
-                yield case, result
-
-
-def _compare_device(repetition: Repetition, spec: str, device: Device) -> None:
-    """Name every file of the device that is another one here."""
-    stated = repetition.submission.device["files"]
-    here = hash_device(device, spec)
-    for name in sorted(stated.keys() | here.keys()):
-        if name not in here or name not in stated:
-            repetition.verification.not_repeated.append(f"the hash of the device's file {name}")
-        elif stated[name] != here[name]:
-            what = "is another one here than the SHA-256 in the archive"
-            repetition.verification.contradict(f"{NAME}: device.files.{name}", what)

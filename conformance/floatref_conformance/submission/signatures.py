@@ -141,9 +141,11 @@ def _try(
     words: Sequence[str], content: bytes | None = None
 ) -> subprocess.CompletedProcess[bytes] | None:
     """Return what came of ``words``; None if there is no such program."""
-    given = {"stdin": subprocess.DEVNULL} if content is None else {"input": content}
     try:
-        return subprocess.run(words, capture_output=True, timeout=TIME_S, check=False, **given)
+        # Empty input rather than the terminal's: a tool that asks a question gets no answer.
+        return subprocess.run(
+            words, input=content or b"", capture_output=True, timeout=TIME_S, check=False
+        )
     except FileNotFoundError:
         return None
     except subprocess.TimeoutExpired as error:
@@ -151,5 +153,7 @@ def _try(
 
 
 def _reason(done: subprocess.CompletedProcess[bytes]) -> str:
+    # The first lines may be a frame of signs.
     lines = done.stderr.decode("utf-8", "replace").split("\n")
-    return next((line.strip() for line in lines if line.strip()), f"exit code {done.returncode}")
+    said = [line.strip() for line in lines if line.strip()]
+    return said[-1] if said else f"exit code {done.returncode}"

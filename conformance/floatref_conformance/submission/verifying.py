@@ -7,12 +7,12 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref_conformance.checks.verdict import CaseResult, Outcome, verdict_on
-from floatref_conformance.devices.interface import Device
 from floatref_conformance.judge.waivers import NO_REASON
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.report import NAME as REPORT
 from floatref_conformance.submission.checksums import SUMS, compare_sums
+from floatref_conformance.submission.device_again import GivenDevice, repeat_device
 from floatref_conformance.submission.document import NAME, Submission, read_json, read_submission
 from floatref_conformance.submission.findings import Verification
 from floatref_conformance.submission.origins import describe_environment, describe_suite
@@ -20,7 +20,6 @@ from floatref_conformance.submission.packing import RESULTS
 from floatref_conformance.submission.rejudging import (
     Repetition,
     check_members,
-    repeat_device,
     score_stored,
 )
 from floatref_conformance.submission.result_records import read_result
@@ -42,12 +41,12 @@ class Wanted:
 
     Attributes:
         signers: who may have signed it; None if anybody.
-        device: the device itself with its SPEC, to run again; None without it.
+        device: the device itself, to run it again; None without it.
         every_case: whether the device gets every case again, not only those that decide.
     """
 
     signers: Path | None = None
-    device: tuple[str, Device] | None = None
+    device: GivenDevice | None = None
     every_case: bool = False
 
 
