@@ -73,7 +73,7 @@ def _sign_minisign(sums: bytes, key: Path) -> bytes:
         (folder / SUMS).write_bytes(sums)
         # The usual trusted comment has the time, and the same content gives the same bytes.
         words = ("minisign", "-S", "-s", str(key), "-m", str(folder / SUMS), "-t", NAMESPACE)
-        done = _run(words)
+        done = _run(words, asks=True)
         if done.returncode != 0:
             raise InputError(f"{key}: minisign cannot sign with it ({_reason(done)}); give a key")
         return read_bytes(folder / MINISIGN, MOST_BYTES, "signature")
@@ -130,21 +130,27 @@ def _is_minisign(key: Path) -> bool:
     return start.startswith(b"untrusted comment:") or bool(BARE_KEY.fullmatch(start))
 
 
-def _run(words: Sequence[str], content: bytes | None = None) -> subprocess.CompletedProcess[bytes]:
-    done = _try(words, content)
+def _run(
+    words: Sequence[str], content: bytes = b"", asks: bool = False
+) -> subprocess.CompletedProcess[bytes]:
+    done = _try(words, content, asks)
     if done is None:
         raise InputError(f"{words[0]}: not installed; install it, or leave signatures out")
     return done
 
 
 def _try(
-    words: Sequence[str], content: bytes | None = None
+    words: Sequence[str], content: bytes = b"", asks: bool = False
 ) -> subprocess.CompletedProcess[bytes] | None:
-    """Return what came of ``words``; None if there is no such program."""
+    """Return what came of ``words``; None if there is no such program.
+
+    One that ``asks`` for a password on standard input gets the user's.
+    """
     try:
-        # Empty input rather than the terminal's: a tool that asks a question gets no answer.
+        if asks:
+            return subprocess.run(words, stdout=subprocess.PIPE, timeout=TIME_S, check=False)
         return subprocess.run(
-            words, input=content or b"", capture_output=True, timeout=TIME_S, check=False
+            words, input=content, capture_output=True, timeout=TIME_S, check=False
         )
     except FileNotFoundError:
         return None
@@ -153,7 +159,7 @@ def _try(
 
 
 def _reason(done: subprocess.CompletedProcess[bytes]) -> str:
-    # The first lines may be a frame of signs.
-    lines = done.stderr.decode("utf-8", "replace").split("\n")
+    # The first lines may be a frame of signs; what a tool has shown itself is not captured.
+    lines = (done.stderr or b"").decode("utf-8", "replace").split("\n")
     said = [line.strip() for line in lines if line.strip()]
     return said[-1] if said else f"exit code {done.returncode}"
