@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from floatref.files.sources import check_file, name_errors
 from floatref_conformance.cli.options import env_option, limit_time, pass_variables
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.text import printable
@@ -69,13 +70,15 @@ def verify(
     Exit code 0: nothing contradicts; 1: something does; 2: wrong usage, or no archive of
     `conformance submit`; 3: the suite itself is at fault.
     """
-    members = read_archive(archive)
-    given = None
+    for path in files if signers is None else (signers, *files):
+        check_file(path)
+    members, given = read_archive(archive), None
     if spec is not None:
         given = GivenDevice(spec, load_registry().device(spec), files)
         limit_time(given.device, device_timeout)
         pass_variables(given.device, variables)
-    found = verify_members(members, Wanted(signers, given, every_case))
+    with name_errors(archive):
+        found = verify_members(members, Wanted(signers, given, every_case), load_registry)
     click.echo(json.dumps(_document(found), indent=2) if as_json else _show(archive, found))
     context.exit(0 if found.is_confirmed else 1)
 
