@@ -90,6 +90,7 @@ def _document(found: Verification) -> dict[str, Any]:
 def _show(archive: Path, found: Verification) -> str:
     """Return what was found as lines, the contradictions last, where the eye is."""
     lines = [f"{archive} states {found.claimed or 'no verdict'}; {found.signature}"]
+    lines += [f"  {line}" for line in found.about]
     lines += ["Repeated:", *(f"  {line}" for line in found.repeated)]
     lines += ["Not repeated:", *(f"  {line}" for line in found.not_repeated)]
     lines += [f"Contradicted ({f.caught_by}): {f.where}: {f.what}" for f in found.findings]

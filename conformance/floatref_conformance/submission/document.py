@@ -71,6 +71,18 @@ class Submission:
         }
 
     @property
+    def about(self) -> tuple[str, ...]:
+        """What was judged, and how, in lines; then waivers with reasons, and the statement."""
+        device, checks = self.device, len(self.checks)
+        how = f"edition {self.edition}, seed {self.seed}, {self.effort} effort"
+        return (
+            f"device {device['spec']} ({device['name']} {device['version']})",
+            f"{how}, class {self.device_class}, {checks} checks",
+            *(f"waived: {id_}: {why}" for id_, why in self.waivers.items()),
+            *(f"statement: {line}" for line in self.statement.splitlines() if line.strip()),
+        )
+
+    @property
     def description(self) -> dict[str, Any]:
         """What the device says of itself."""
         keys = ("name", "version", "architecture", "capabilities")

@@ -27,12 +27,14 @@ class Verification:
 
     Attributes:
         claimed: the verdict that the archive states.
+        about: what was judged, how, what was waived, and what its submitter states, in lines.
         signature: who signed it, or that nobody did, in one line.
         findings: all that contradicts.
         repeated, not_repeated: what was repeated here, and what was not, with the reason.
     """
 
     claimed: str = ""
+    about: tuple[str, ...] = ()
     signature: str = ""
     findings: list[Finding] = field(default_factory=list)
     repeated: list[str] = field(default_factory=list)

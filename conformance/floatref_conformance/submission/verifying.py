@@ -82,7 +82,7 @@ def _repeat(
     report = read_json(refuse_without(members, REPORT), REPORT)
     if not isinstance(report, dict):
         raise InputError(f"{REPORT}: not an object; ask for the archive again")
-    verification.claimed = str(report.get("verdict"))
+    verification.claimed, verification.about = str(report.get("verdict")), submission.about
     results = read_results(members)
     repetition = Repetition(members, submission, results, load(submission.edition), verification)
     _compare_origins(submission, verification)
