@@ -71,6 +71,7 @@ ALLOWED = {
     "conformance/floatref_conformance/submission/stored_zip.py:ZipFile": "on what the door opened",
     "sdk/floatref/files/owners.py:read_text": "what the system tells in /proc",
     "sdk/floatref/files/owners.py:read_bytes": "what the system tells in /proc",
+    "conformance/floatref_conformance/mutants/flaws.py:read_text": "a file of the package",
     "conformance/floatref_conformance/samples/network.py:read_bytes": "what it has just written",
 }
 """Where another opening is right, and why."""

@@ -53,6 +53,7 @@ __all__ = ["RECOMMENDED", "run"]
 @click.pass_context
 def run(
     context: click.Context,
+    /,
     report: Path | None,
     jobs: int,
     verbose: bool,

@@ -13,6 +13,8 @@ from floatref_conformance.submission.signatures import MINISIGN, SSH, check_sign
 
 WHO = "lab@example.org"
 
+pytestmark = pytest.mark.posix
+
 
 def make_ssh(folder, name):
     """Return a new secret key of ssh and the file of allowed signers with its public one."""
