@@ -68,7 +68,7 @@ def _run_again(repetition: Repetition, chosen: GivenDevice, every_case: bool) ->
         if str(fault) != submission.fault:
             verification.contradict("device", str(fault))
         return
-    if description != repetition.describe():
+    if description != submission.describe():
         verification.contradict("device", "describes itself in another way than in the archive")
     cases = _choose(repetition, every_case)
     for case, before in cases:

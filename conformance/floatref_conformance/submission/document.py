@@ -9,6 +9,8 @@ from floatref.errors import InputError
 from floatref.files.document import parse_document
 from floatref.files.schema import enforce_schema
 from floatref_conformance.classes import DeviceClass, Effort
+from floatref_conformance.devices.interface import Description
+from floatref_conformance.errors import DeviceError
 from floatref_conformance.schemas import read_schema
 
 NAME = "submission.json"
@@ -87,6 +89,13 @@ class Submission:
         """What the device says of itself."""
         keys = ("name", "version", "architecture", "capabilities")
         return {key: self.device[key] for key in keys}
+
+    def describe(self) -> Description:
+        """Return the description, verified; InputError if no device can say that."""
+        try:
+            return Description.of(self.description)
+        except DeviceError as error:
+            raise InputError(f"{NAME}: the device {error}; ask for the archive again") from error
 
 
 def read_submission(content: bytes) -> Submission:

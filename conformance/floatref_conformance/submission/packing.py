@@ -9,7 +9,6 @@ from floatref_conformance.case_files import name_of
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.verdict import CaseResult, RunResult
 from floatref_conformance.classes import DeviceClass
-from floatref_conformance.devices.interface import Description
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.runner import UNDESCRIBED, Plan
 from floatref_conformance.render.report import NAME as REPORT
@@ -125,7 +124,7 @@ def _write_answers(
 ) -> dict[str, bytes]:
     """Return the members that hold the profiles of ``result``, with the hashes of its inputs."""
     files = write_passes(result.passes)
-    description = Description.of(submission.description)
+    description = submission.describe()
     check = next(check for check in plan.checks if check.id == id_)
     case = Case.of(id_, result.parameters, result.name)
     again, inputs = score_again(

@@ -8,9 +8,7 @@ from floatref.errors import InputError
 from floatref_conformance.case_files import FOLDER as CASES
 from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.verdict import CaseResult
-from floatref_conformance.devices.interface import Description
 from floatref_conformance.editions.edition import find_edition
-from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.judging import describe_failure
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.report import NAME as REPORT
@@ -54,13 +52,6 @@ class Repetition:
                 return result
         raise InputError(f"{case.check}, {case.name}: no result of this case in the archive")
 
-    def describe(self) -> Description:
-        """Return what the device of the archive says of itself; InputError if it cannot be."""
-        try:
-            return Description.of(self.submission.description)
-        except DeviceError as error:
-            raise InputError(f"{NAME}: the device {error}; ask for the archive again") from error
-
 
 def check_members(repetition: Repetition, report: Mapping[str, Any]) -> None:
     """Name members that no submission has, and cases that are not those of ``report``."""
@@ -95,7 +86,7 @@ def _score(repetition: Repetition, one: StoredCase) -> int:
     before = repetition.find(one.case)
     check, edition = repetition.registry.check(one.case.check), find_edition(submission.edition)
     profiles = read_passes(one.files, "answer")
-    result, inputs = score_again(check, one.case, profiles, repetition.describe(), edition)
+    result, inputs = score_again(check, one.case, profiles, submission.describe(), edition)
     differences = [*compare_results(before, result, SCORED), *compare_truth(one, result)]
     for difference in differences:
         verification.contradict(one.folder, difference)

@@ -20,12 +20,14 @@ from floatref_conformance.devices.interface import Description
 from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.judge.events import CaseFinished, Event
-from floatref_conformance.judge.runner import Plan, run
+from floatref_conformance.judge.runner import UNDESCRIBED, Plan, run
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.report import as_json
 from floatref_conformance.submission.document import Submission, write_json
 from floatref_conformance.submission.rescoring import score_again
 
+MISSING = "missing"
+"""Of a key that only one of two reports has; no report has such a value."""
 Results = Mapping[str, Sequence[CaseResult]]
 
 
@@ -106,9 +108,9 @@ def make_report(submission: Submission, results: Results, registry: Registry) ->
     """
     checks, left_out = _select(submission, registry)
     device = SilentDevice(submission)
-    known = Description.of(submission.description) if not submission.fault else None
     edition = find_edition(submission.edition)
-    tape = Tape(results, known or Description("", "", "temporal", ()), edition)
+    known = UNDESCRIBED if submission.fault else submission.describe()
+    tape = Tape(results, known, edition)
     plan = Plan(
         submission.device["spec"],
         device,
@@ -146,12 +148,13 @@ def compare_reports(stored: Any, again: Any, where: str = "") -> Iterator[tuple[
     """Yield place and description of what differs between a report and its repetition."""
     if isinstance(stored, dict) and isinstance(again, dict):
         for key in sorted(stored.keys() | again.keys()):
-            yield from compare_reports(stored.get(key), again.get(key), f"{where}.{key}".strip("."))
+            place = f"{where}.{key}".strip(".")
+            yield from compare_reports(stored.get(key, MISSING), again.get(key, MISSING), place)
     elif isinstance(stored, list) and isinstance(again, list) and len(stored) == len(again):
         for number, pair in enumerate(zip(stored, again, strict=True)):
             name = pair[1].get("id", number) if isinstance(pair[1], dict) else number
             yield from compare_reports(*pair, f"{where}[{name}]")
-    elif stored != again:
+    elif stored != again or isinstance(stored, bool) != isinstance(again, bool):
         yield where, f"is {_show(stored)}, repeated it is {_show(again)}"
 
 

@@ -1,5 +1,6 @@
 """The profiles of a case in an archive, and a device that gives them out."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +17,7 @@ from floatref_conformance.errors import DeviceError
 
 FOLDER = "answers"
 MOST_BYTES = 1 << 28
+MEMBER = re.compile(r"(answer|truth)-[1-9][0-9]*/[A-Za-z0-9_][A-Za-z0-9._-]*")
 
 
 def write_passes(passes: Sequence[Pass]) -> dict[str, bytes]:
@@ -46,7 +48,8 @@ def read_passes(files: Mapping[str, bytes], kind: str) -> tuple[Profile, ...]:
     numbers = sorted(_numbers(files, kind))
     with scratch_folder("answers") as folder:
         for name, content in files.items():
-            # The names have been checked when the archive was read: no path leads out.
+            if not MEMBER.fullmatch(name):
+                raise InputError(f"{name}: is no part of a submission; ask for the archive again")
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_bytes(content)
         return tuple(_hold(read_profile(folder / f"{kind}-{number}")) for number in numbers)

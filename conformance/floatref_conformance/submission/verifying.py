@@ -137,8 +137,8 @@ def _compare_verdict(
     report: Mapping[str, Any], again: Mapping[str, Any], verification: Verification
 ) -> None:
     """Compare the verdict with the one that follows from all outcomes, of streams included."""
-    checks = [*again["checks"], *again["replayed"], *(report.get("stream_checks") or [])]
     try:
+        checks = [*again["checks"], *again["replayed"], *(report.get("stream_checks") or [])]
         follows = verdict_on([Outcome(check["outcome"]) for check in checks]).value
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"{REPORT}: stream_checks without outcomes; ask for it again") from error

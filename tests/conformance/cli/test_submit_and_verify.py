@@ -40,6 +40,7 @@ def test_a_failure_is_submitted_and_confirmed(call, submit, tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["a.zip"]
 
 
+@pytest.mark.slow
 def test_the_same_input_gives_the_same_archive(submit, tmp_path):
     submit("clipping")
     before = (tmp_path / "a.zip").read_bytes()
@@ -47,6 +48,7 @@ def test_the_same_input_gives_the_same_archive(submit, tmp_path):
     assert (tmp_path / "a.zip").read_bytes() == before
 
 
+@pytest.mark.slow
 def test_a_tampered_archive_ends_with_1_and_names_the_place(call, submit, tmp_path):
     submit("good", "--check", "toy")
     members = read_archive(tmp_path / "a.zip")
@@ -61,6 +63,7 @@ def test_a_tampered_archive_ends_with_1_and_names_the_place(call, submit, tmp_pa
     assert "Contradicted (repetition): report.json: verdict" in call("verify", "b.zip").stdout
 
 
+@pytest.mark.slow
 def test_signature_statement_and_waiver_are_in_it(call, submit, tmp_path):
     words = ("ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", "key")
     subprocess.run(words, check=True, cwd=tmp_path)

@@ -32,6 +32,7 @@ def test_a_program_is_its_file_and_the_files_among_its_arguments(tmp_path, monke
     assert {name for name in before if before[name] != after[name]} == {"settings"}
 
 
+@pytest.mark.slow
 def test_a_package_is_all_of_its_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=":")
@@ -53,6 +54,7 @@ def test_delivered_files_are_theirs(tmp_path):
     assert hash_of(f"files:{tmp_path}") != before
 
 
+@pytest.mark.slow
 def test_further_files_count_and_a_missing_one_is_named(tmp_path):
     device = make_builtin("temporal-basic")
     (tmp_path / "library.so").write_text("1")

@@ -99,8 +99,8 @@ def test_figures_agree_where_a_processor_rounds_otherwise(path):
     )
     for stored in list_stored(members):
         device = StoredAnswers(read_passes(stored.files, "answer"), submission.description)
-        bench = DeviceBench(device, repetition.describe(), rounded_otherwise, find_edition())
-        check = fit_check(load_registry().check("bounce"), repetition.describe().meets)
+        bench = DeviceBench(device, submission.describe(), rounded_otherwise, find_edition())
+        check = fit_check(load_registry().check("bounce"), submission.describe().meets)
         again = judge_case(check, stored.case, bench)
         before = repetition.find(stored.case)
         assert [m.value for m in again.measurements] != [m.value for m in before.measurements]

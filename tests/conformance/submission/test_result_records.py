@@ -4,7 +4,7 @@ import json
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
@@ -39,6 +39,7 @@ def copy(result):
     return read_result(json.loads(json.dumps(write_result(result), allow_nan=False)), "here")
 
 
+@settings(max_examples=30)
 @given(RESULTS)
 def test_every_figure_comes_back(result):
     again = copy(result)

@@ -104,7 +104,7 @@ def write_anew(members, path):
     return path.read_bytes()
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(MEMBERS)
 def test_content_comes_back_and_bytes_follow_from_it(one_folder, members):
     path = one_folder / "a.zip"
@@ -113,7 +113,7 @@ def test_content_comes_back_and_bytes_follow_from_it(one_folder, members):
     assert read_archive(path) == members
 
 
-@settings(deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(st.data())
 def test_no_changed_byte_changes_a_member_unnoticed(one_folder, data):
     members = {"a": b"one", "b/c": b"two"}
