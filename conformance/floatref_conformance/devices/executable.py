@@ -47,7 +47,9 @@ class ExecDevice:
 
         None if it does not. DeviceError without a usable description.
         """
-        declared = self.describe().get("streaming", False)
+        # Once described, a program that was stopped is not started again to be asked.
+        about = self.describe() if self._description is None else self._description
+        declared = about.get("streaming", False)
         if not isinstance(declared, bool):
             raise DeviceError(
                 f"gives a description with streaming {declared!r}; give true or false"

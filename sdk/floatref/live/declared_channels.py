@@ -12,6 +12,7 @@ from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import CHANNELS, ChannelId, channel_spec
 from floatref.values.clock import LATEST_S, StampedClock, UniformClock
+from floatref.values.display.short_text import shorten
 from floatref.values.display.similar_names import suggest
 from floatref.values.plain import numbers
 from floatref.values.recording import Channel, Recording, Setup
@@ -56,10 +57,15 @@ def read_declarations(
 def _read_clock(name: ChannelId, declared: Declared) -> UniformClock | None:
     if declared is None or isinstance(declared, UniformClock):
         return declared
+    if isinstance(declared, StampedClock):
+        raise InputError(
+            f"channel {name}: is declared with the times of its samples; declare None, and push "
+            "(times in s, samples)"
+        )
     if isinstance(declared, bool) or not isinstance(declared, Real):
         raise InputError(
-            f"channel {name}: {declared!r} is no clock; give a rate in Hz, a UniformClock, or None "
-            "for samples with times"
+            f"channel {name}: {shorten(repr(declared))} is no clock; give a rate in Hz, a "
+            "UniformClock, or None for samples with times"
         )
     try:
         return UniformClock.of(float(declared))

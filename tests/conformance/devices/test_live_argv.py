@@ -9,6 +9,7 @@ from floatref_conformance.errors import DeviceError
 
 DESCRIBES = """
 import json, sys
+open("starts", "a").write("once ")
 device = {"name": "x", "version": "1", "architecture": "temporal", "capabilities": []}
 device.update(json.loads(sys.argv[1]))
 for line in sys.stdin:
@@ -43,3 +44,11 @@ def test_a_program_streams_by_its_own_command_line_if_it_says_so(device, members
 def test_anything_but_true_or_false_is_a_fault(device):
     with pytest.raises(DeviceError, match="streaming 'yes'; give true or false"):
         _ = device('{"streaming": "yes"}').live_argv
+
+
+def test_a_program_that_was_stopped_is_not_started_again_to_be_asked(device, tmp_path):
+    program = device('{"streaming": true}')
+    program.describe()
+    program.close()
+    assert program.live_argv == program.argv
+    assert (tmp_path / "starts").read_text(encoding="ascii") == "once "

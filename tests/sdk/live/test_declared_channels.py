@@ -5,7 +5,7 @@ import pytest
 
 from floatref import InputError, Setup, start_stream
 from floatref.live.declared_channels import Entrance, read_declarations
-from floatref.values.clock import UniformClock
+from floatref.values.clock import StampedClock, UniformClock
 
 CHANNELS = {
     "left.vertical_specific_force": 1000.0,
@@ -31,6 +31,11 @@ def test_a_rate_is_a_clock_that_begins_at_zero():
         ({"left.hight": 10.0}, "channel left.hight: unknown name; "),
         ({"height": -3.0}, "channel height: rate_hz is -3; give the sampling rate in Hz"),
         ({"height": "fast"}, "channel height: 'fast' is no clock; give a rate in Hz"),
+        ({"height": np.zeros(99)}, "channel height: array([0., 0., 0., 0., 0., 0., … is no clock"),
+        (
+            {"height": StampedClock(np.arange(99.0))},
+            "channel height: is declared with the times of its samples; declare None, and push (t",
+        ),
         ({"height": True}, "channel height: True is no clock; give a rate in Hz"),
     ],
 )
@@ -38,6 +43,7 @@ def test_a_declaration_that_cannot_be_is_refused(channels, message):
     with pytest.raises(InputError) as error:
         read_declarations(channels)
     assert str(error.value).startswith(message)
+    assert str(error.value).isprintable()
 
 
 @pytest.mark.parametrize(

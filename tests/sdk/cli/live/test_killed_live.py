@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -89,33 +90,40 @@ def read_on(process, path, expected, known, until_s):
     return known
 
 
+@contextmanager
+def fed_slowly(path, messages, rng):
+    """Yield the command and its peer, which sends ``messages`` and then says nothing more."""
+    process = start(path, "--save-every", str(rng.choice([0.0, 0.2, 2.0])))
+    pause_s = str(rng.uniform(0.0, 0.01))
+    pipes = {"stdin": subprocess.PIPE, "stdout": process.stdin}
+    feeder = subprocess.Popen([sys.executable, "-c", FEEDER, pause_s], **pipes)
+    try:
+        process.stdin.close()
+        feeder.stdin.write(b"".join(json.dumps(m).encode() + b"\n" for m in messages))
+        feeder.stdin.close()
+        yield process, feeder
+    finally:
+        for each in (process, feeder):
+            each.kill()
+            each.wait(WAIT_S)
+        process.stdout.close()
+
+
 def kill_often(run, path, same, times, seed):
-    """Kill the command ``times`` times, each at another moment, and then let it finish."""
+    """Kill the command or its peer ``times`` times, each at another moment; then let it finish."""
     messages, expected = run
     rng = np.random.default_rng(seed)
     known = 0
     for _ in range(times):
-        process = start(path, "--save-every", str(rng.choice([0.0, 0.2, 2.0])))
-        feeder = subprocess.Popen(
-            [sys.executable, "-c", FEEDER, str(rng.uniform(0.0, 0.01))],
-            stdin=subprocess.PIPE,
-            stdout=process.stdin,
-        )
-        process.stdin.close()
-        feeder.stdin.write(b"".join(json.dumps(m).encode() + b"\n" for m in messages[:-1]))
-        feeder.stdin.close()
-        if rng.uniform() < 0.8:
-            select.select([process.stdout], [], [], WAIT_S)
-        until_s = time.monotonic() + rng.uniform(0.0, 4.0)
-        known = read_on(process, path, expected, known, until_s)
-        victims = [process, feeder]
-        rng.shuffle(victims)
-        os.kill(victims[0].pid, signal.SIGKILL)
-        known = read_on(process, path, expected, known, time.monotonic() + 0.5)
-        for each in victims:
-            each.kill()
-            each.wait(WAIT_S)
-        process.stdout.close()
+        with fed_slowly(path, messages[:-1], rng) as victims:
+            process, victim = victims[0], victims[rng.integers(2)]
+            if rng.uniform() < 0.8:
+                select.select([process.stdout], [], [], WAIT_S)
+            until_s = time.monotonic() + rng.uniform(0.0, 4.0)
+            known = read_on(process, path, expected, known, until_s)
+            # Neither ends by itself: the peer goes on and says nothing more.
+            os.kill(victim.pid, signal.SIGKILL)
+            known = read_on(process, path, expected, known, time.monotonic() + 0.5)
         known = check_prefix(path, expected, known)
     with start(path) as last:
         feed(last, messages, 0.0)
@@ -131,8 +139,9 @@ for line in sys.stdin.buffer.readlines():
     sys.stdout.buffer.write(line)
     sys.stdout.buffer.flush()
     time.sleep(float(sys.argv[1]))
+time.sleep(3600.0)
 """
-"""A peer that sends what it is given, with pauses."""
+"""A peer that sends what it is given, with pauses, and stays."""
 
 
 @pytest.mark.slow
