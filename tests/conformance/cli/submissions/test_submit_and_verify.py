@@ -7,10 +7,10 @@ import pytest
 from click.testing import CliRunner
 from tests.conformance.submission.conftest import load
 
-from floatref_conformance.cli import submit as submit_command
-from floatref_conformance.cli import verify as verify_command
 from floatref_conformance.cli.main import main
-from floatref_conformance.cli.verify import FORMAT
+from floatref_conformance.cli.submissions import submit as submit_command
+from floatref_conformance.cli.submissions import verify as verify_command
+from floatref_conformance.cli.submissions.verify import FORMAT
 from floatref_conformance.submission.stored_zip import read_archive, write_archive
 
 
