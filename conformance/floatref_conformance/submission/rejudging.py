@@ -46,7 +46,7 @@ class Repetition:
         return {(s.case.check, s.case.digest) for s in list_stored(self.members)}
 
     def find(self, case: Case) -> CaseResult:
-        """Return the stored result of ``case``; InputError if there is none."""
+        """Return the stored result of ``case``; InputError if it is missing."""
         for result in self.results.get(case.check, ()):
             if result.name == case.name and result.parameters == dict(case.parameters):
                 return result
@@ -99,7 +99,7 @@ def _score(repetition: Repetition, one: StoredCase) -> int:
 
 
 def _note_missing(repetition: Repetition, report: Mapping[str, Any]) -> None:
-    """Name every case that decides, delivered profiles, and has none of them in the archive."""
+    """Name every case that decides, delivered profiles, and is without them in the archive."""
     decisive = repetition.decisive
     for check in report["checks"]:
         for result in repetition.results.get(check["id"], ()):

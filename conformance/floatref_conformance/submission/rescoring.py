@@ -67,7 +67,7 @@ def judge_on(
 
 
 def list_stored(members: Mapping[str, bytes]) -> Iterator[StoredCase]:
-    """Yield the cases of ``members`` with profiles; InputError for one that is none."""
+    """Yield the cases of ``members`` with profiles; InputError for what is no case."""
     folders = sorted({"/".join(n.split("/")[:2]) for n in members if n.startswith(f"{FOLDER}/")})
     for folder in folders:
         files = {

@@ -30,7 +30,7 @@ def write_result(result: CaseResult) -> dict[str, Any]:
 
 
 def read_result(found: Any, where: str) -> CaseResult:
-    """Return the result in ``found``; InputError naming ``where`` if it holds none."""
+    """Return the result in ``found``; InputError naming ``where`` if it holds no result."""
     try:
         return CaseResult(
             str(found["name"]),

@@ -42,7 +42,7 @@ class SilentDevice:
     submission: Submission
 
     def describe(self) -> Mapping[str, Any]:
-        """Return the description in the archive; DeviceError with its fault if there is none."""
+        """Return the description in the archive; DeviceError with its fault in its place."""
         if self.submission.fault:
             raise DeviceError(self.submission.fault)
         return self.submission.description

@@ -57,7 +57,7 @@ def verify(
 ) -> Verification:
     """Return what the repetition of ``members``, an archive's, has shown.
 
-    ``load`` returns the checks of an edition. Raises InputError if the archive is none of
+    ``load`` returns the checks of an edition. Raises InputError if the archive is not of
     `conformance submit`, or a tool is missing.
     """
     verification = Verification()
