@@ -12,14 +12,20 @@ from pathlib import Path
 from click.testing import CliRunner
 
 from floatref.cli.main import main as floatref
+from floatref.cli.program.starting import start as start_floatref
+from floatref_conformance.__main__ import start as start_conformance
 from floatref_conformance.cli.main import main as conformance
 
 LONGEST_S = 120.0
 """A command that takes longer hangs: the files are small."""
 MOST_BYTES = 600 << 20
+LOADED_BYTES = 250 << 20
+"""What a process takes that has loaded what commands need, and nothing else."""
 ALLOWED = range(6)
 """Exit codes that commands have."""
 TRACES = ("Traceback (most recent call last)", "the suite itself is at fault", "Exception ignored")
+
+STARTS = {"floatref": start_floatref, "conformance": start_conformance}
 
 
 @dataclass(frozen=True)
@@ -59,19 +65,34 @@ def warm_up(words: Iterable[Sequence[str]]) -> None:
 def run_attack(words: Sequence[str], folder: Path) -> Ended:
     """Run ``words``, a program and its arguments, with temporary files in a new part of ``folder``.
 
-    Linux alone counts memory in KiB.
+    Its memory is what it took beyond that of this process, which may hold much of earlier work, and
+    `LOADED_BYTES`. Linux alone counts memory in KiB.
     """
     here = Path(tempfile.mkdtemp(dir=folder))
     temporary = here / "temporary"
     temporary.mkdir()
+    before = resident_bytes()
+    process = begin(words, here, temporary)
+    code, hung, peak = wait(process)
+    peak = LOADED_BYTES + max(0, peak - before)
+    text = (here / "printed").read_text(encoding="utf-8", errors="replace")
+    beside = [path.name for path in folder.rglob(".floatref-*")]
+    left = (*sorted(path.name for path in temporary.iterdir()), *beside, *survivors(process))
+    return Ended(tuple(words), code, hung, text, peak, left)
+
+
+def resident_bytes() -> int:
+    """Return the memory of this process."""
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def begin(words: Sequence[str], here: Path, temporary: Path) -> int:
+    """Return the process that runs ``words`` in ``here``, in a session of its own."""
     process = os.fork()
     if process == 0:
         _become(words, here, temporary)
-    code, hung, peak = _wait(process)
-    text = (here / "printed").read_text(encoding="utf-8", errors="replace")
-    beside = [path.name for path in folder.rglob(".floatref-*")]
-    left = (*sorted(path.name for path in temporary.iterdir()), *beside, *_survivors(process))
-    return Ended(tuple(words), code, hung, text, peak, left)
+    return process
 
 
 def _become(words: Sequence[str], here: Path, temporary: Path) -> None:
@@ -87,8 +108,8 @@ def _become(words: Sequence[str], here: Path, temporary: Path) -> None:
             os.dup2(source, target)
         sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
         sys.stderr = open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
-        group = conformance if words[0] == "conformance" else floatref
-        group.main(args=list(words[1:]), prog_name=words[0])
+        sys.argv = list(words)
+        STARTS[words[0]]()
     except SystemExit as end:
         code = end.code if isinstance(end.code, int) else 0 if end.code is None else 1
     except BaseException:
@@ -101,7 +122,7 @@ def _become(words: Sequence[str], here: Path, temporary: Path) -> None:
         os._exit(code)
 
 
-def _wait(process: int) -> tuple[int, bool, int]:
+def wait(process: int) -> tuple[int, bool, int]:
     """Return exit code, whether it had to be killed, and its peak of memory in bytes."""
     end, hung = time.monotonic() + LONGEST_S, False
     while True:
@@ -114,7 +135,7 @@ def _wait(process: int) -> tuple[int, bool, int]:
         time.sleep(0.005)
 
 
-def _survivors(group: int) -> tuple[str, ...]:
+def survivors(group: int) -> tuple[str, ...]:
     """Return a name if processes of the session are still there."""
     try:
         os.killpg(group, 0)

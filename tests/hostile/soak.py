@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parents[2]))
 
+from tests.hostile.attack_running import resident_bytes
 from tests.hostile.hostile_files import write_sound
 
 from floatref import Recording, UniformClock, read_recording, start_stream
@@ -81,7 +82,6 @@ def count(temporary: Path) -> Counts:
     """Count what this process holds, and the files in ``temporary``."""
     gc.collect()
     process = Path("/proc/self")
-    pages = int((process / "statm").read_text(encoding="ascii").split()[1])
     tasks = process / "task"
     children = {
         child
@@ -89,7 +89,7 @@ def count(temporary: Path) -> Counts:
         for child in (task / "children").read_text(encoding="ascii").split()
     }
     return Counts(
-        memory_mib=pages * os.sysconf("SC_PAGE_SIZE") / 2**20,
+        memory_mib=resident_bytes() / 2**20,
         handles=len(list((process / "fd").iterdir())),
         threads=threading.active_count(),
         children=len(children),

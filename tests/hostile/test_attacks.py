@@ -103,7 +103,7 @@ def test_a_case_that_a_device_planted_is_refused(tmp_path: Path, kind: str) -> N
 
 def faulty(ended: list[Ended]) -> list[str]:
     """Return what is wrong with the commands that ended."""
-    return [f"{one.words}: {one.faults()}: {one.text[-300:]}" for one in ended if one.faults()]
+    return [f"{one.faults()}: {one.words}: {one.text[-300:]}" for one in ended if one.faults()]
 
 
 @pytest.mark.slow

@@ -106,7 +106,7 @@ def run_result():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize("spec", ["builtin:road-prior-smoother", "builtin:temporal-matched-hpf"])
 def test_a_built_in_stream_passes_all_five(spec, seed):
     device = load_registry().device(spec)
