@@ -44,7 +44,7 @@ def read_result(found: Any, where: str) -> CaseResult:
             false_alarms=int(found["false_alarms"]),
             nees=tuple(PathNees(str(t), _float(mean), int(n)) for t, mean, n in found["nees"]),
         )
-    except (KeyError, TypeError, ValueError, OverflowError) as error:
+    except (AttributeError, KeyError, TypeError, ValueError, OverflowError) as error:
         text = " ".join(f"{type(error).__name__}: {error}".split())
         raise InputError(f"{where}: not the result of a case ({text}); ask for it again") from error
 
@@ -66,7 +66,7 @@ def _read_measurement(found: Mapping[str, Any]) -> Measurement:
         str(found["track"]),
         _float(found["value"]),
         str(found["unit"]),
-        {DeviceClass(name): _float(limit) for name, limit in found["limits"].items()},
+        {DeviceClass(name): _limit(limit) for name, limit in found["limits"].items()},
         is_flagged_length=bool(found["is_flagged_length"]),
     )
 
@@ -80,6 +80,14 @@ def _float(found: Any) -> float:
     if isinstance(found, str):
         return BEYOND[found]
     return float(found)
+
+
+def _limit(found: Any) -> float:
+    """Return a limit; ValueError for one that nothing can be divided by."""
+    limit = _float(found)
+    if not limit > 0.0:
+        raise ValueError(f"a limit of {limit}")
+    return limit
 
 
 def _text(found: Any) -> str | None:

@@ -7,6 +7,7 @@ from typing import Any
 
 from floatref.errors import InputError
 from floatref_conformance.checks.verdict import CaseResult, Outcome, verdict_on
+from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.waivers import NO_REASON
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
@@ -115,8 +116,9 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
     verification, results = repetition.verification, repetition.results
     try:
         again = make_report(repetition.submission, results, repetition.registry)
-    except Departed as departed:
-        verification.contradict(RESULTS, str(departed))
+    except (Departed, SuiteError) as error:
+        # Figures that no run has can stop the judge where those of a run cannot.
+        verification.contradict(RESULTS, str(error))
         return None
     for place, what in compare_reports(_comparable(report), _comparable(again)):
         verification.contradict(f"{REPORT}: {place}", what)
