@@ -22,11 +22,7 @@ DRIVES, SEED = 8, 4
 SHAPES = [condition.name for condition in STOPS]
 TOO_SMALL = {("road-prior-smoother-imu", name) for name in ("hump, gutter", "break of 6 %")}
 """Where sigma falls short of what is asked, 85 %: docs/road-prior-imu.md says so."""
-SHORT = pytest.mark.xfail(
-    # Not strict: the rounding of a processor decides on either side of the bound.
-    reason="sigma has no share for an error of the attitude",
-    strict=False,
-)
+SHORT = pytest.mark.xfail(reason="sigma has no share for an error of the attitude", strict=True)
 CASES = [
     pytest.param(name, shape, marks=[SHORT] if (name, shape) in TOO_SMALL else [])
     for name in PIPELINES

@@ -25,18 +25,19 @@ BUFFER = 1 << 16
 
 
 @contextmanager
-def open_bytes(path: Path, links: bool = True) -> Iterator[BufferedReader]:
+def open_bytes(path: Path, links: bool = True, grows: bool = False) -> Iterator[BufferedReader]:
     """Open the regular file ``path`` for reading the bytes that it has now.
 
-    What is appended while it is read is left out; of /proc, where files have no length, nothing is
-    read. Without ``links`` a symbolic link is refused: another may have put it there. Raises
+    What is appended while it is read is left out, unless it ``grows``; of /proc, where files have
+    no length, nothing is read. Without ``links`` a symbolic link is refused: another may have put
+    it there. A reader of a file that grows bounds by itself what it keeps. Raises
     InputError naming ``path`` if it is missing, a folder, a device, a pipe, a socket, a loop of
     links, or may not be read.
     """
     with _refusals(path):
         # Opening a device can do something to it already.
         _check_kind(path, os.stat(path).st_mode)
-        raw = _open_file(path, 0 if links else NO_LINK)
+        raw = _open_file(path, 0 if links else NO_LINK, grows)
         stream: BufferedReader = BufferedReader(raw, BUFFER)
     with stream:
         yield stream
@@ -102,14 +103,15 @@ def name_errors(where: object) -> Iterator[None]:
 
 
 class _Measured(io.FileIO):
-    """A file of which no more can be read than it had when it was opened.
+    """A file of which no more can be read than it had when it was opened, unless it ``grows``.
 
     What goes wrong while it is read is an InputError that names it.
     """
 
-    def __init__(self, handle: int, path: Path) -> None:
+    def __init__(self, handle: int, path: Path, grows: bool) -> None:
         super().__init__(handle, "rb")
-        self._path, self._size = path, os.fstat(handle).st_size
+        self._path = path
+        self._size = None if grows else os.fstat(handle).st_size
 
     def readinto(self, buffer: Any) -> int | None:
         """Read into ``buffer`` what is left; return the number of bytes, 0 at the end."""
@@ -125,15 +127,16 @@ class _Measured(io.FileIO):
         return b"".join(pieces)
 
     def _left(self) -> int:
-        return max(self._size - self.tell(), 0)
+        size = os.fstat(self.fileno()).st_size if self._size is None else self._size
+        return max(size - self.tell(), 0)
 
 
-def _open_file(path: Path, more_flags: int) -> _Measured:
+def _open_file(path: Path, more_flags: int, grows: bool) -> _Measured:
     handle = os.open(path, FLAGS | more_flags)
     try:
         # Another thing may have taken the place of the file since it was inspected.
         _check_kind(path, os.fstat(handle).st_mode)
-        return _Measured(handle, path)
+        return _Measured(handle, path, grows)
     except BaseException:
         os.close(handle)
         raise

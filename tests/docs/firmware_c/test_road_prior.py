@@ -79,8 +79,9 @@ def test_a_profile_is_that_of_the_pipeline(start, drives, drive, tmp_path):
 
 
 @pytest.mark.xfail(
-    reason="at the begin of a run 15 % of what carrying it changes, 0.14 mm; not examined",
-    strict=False,
+    reason="the SDK's high-pass begins with a step from 0 to the first elevation, 18 mm where the "
+    "smoother has moved it; C counts from the first point: 0.14 mm are left where points are valid",
+    strict=True,
 )
 def test_between_brakes_the_height_is_carried_as_by_the_sdk(start, simulated, tmp_path):
     """Within a tenth of what carrying it changes; the joints of two parts are moved by less."""

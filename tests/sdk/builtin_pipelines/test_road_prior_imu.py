@@ -98,11 +98,6 @@ def test_gnss_makes_no_difference() -> None:
     assert floatref.pipeline_capabilities(PIPELINE) == ("imu",)
 
 
-@pytest.mark.xfail(
-    reason="the covariance of 2 m² at the marks is rounded by 4e-6 of itself: the least 1-σ at "
-    "this stop is 0.57 or 0.99 mm, by the instructions of the processor",
-    strict=False,
-)
 def test_one_sigma_at_the_stop_is_not_too_small() -> None:
     """The RMS error is less than twice as large."""
     simulation = driven()

@@ -120,6 +120,21 @@ def test_what_is_appended_while_it_is_read_is_left_out(
         assert found + stream.read() == content
 
 
+@given(content=st.binary(max_size=300), pieces=st.lists(st.binary(max_size=90), max_size=4))
+def test_a_file_that_grows_is_read_as_far_as_it_has_grown(
+    tmp_path_factory: pytest.TempPathFactory, content: bytes, pieces: list[bytes]
+) -> None:
+    path = tmp_path_factory.mktemp("file") / "growing"
+    path.write_bytes(content)
+    with open_bytes(path, grows=True) as stream:
+        found = stream.read()
+        for piece in pieces:
+            with path.open("ab") as end:
+                end.write(piece)
+            found += stream.read1()
+        assert found + stream.read() == content + b"".join(pieces)
+
+
 @pytest.mark.skipif(not Path("/proc/self/maps").exists(), reason="needs files without a length")
 def test_a_file_without_a_length_is_empty() -> None:
     assert read_bytes(Path("/proc/self/maps"), 1 << 20, "list") == b""

@@ -21,24 +21,26 @@ static void back_road(const double *own, double span, double *lambda)
         lambda[ROAD_LEAN] = 0.0;
         lambda[ROAD_TILT] = 0.0;
     }
-    double by_r = lambda[ROAD_R], by_v = lambda[ROAD_V];
+    double by_d = lambda[ROAD_D], by_v = lambda[ROAD_V], by_r = lambda[ROAD_R] + by_d;
+    lambda[ROAD_R] += (1.0 - own[STAYS]) * by_d;
     lambda[ROAD_V] += span * by_r;
     lambda[ROAD_BIAS] -= span * (by_v + 0.5 * span * by_r);
     lambda[ROAD_LEAN] -= own[LEAN_TWICE] * by_r + own[LEAN_ONCE] * by_v;
     lambda[ROAD_TILT] -= own[TILT_TWICE] * by_r + own[TILT_ONCE] * by_v;
-    lambda[ROAD_SLOPE] = own[STAYS] * lambda[ROAD_SLOPE] + own[CLIMBS] * lambda[ROAD_Z];
-    lambda[ROAD_Z] *= own[STAYS];
+    lambda[ROAD_SLOPE] = own[STAYS] * lambda[ROAD_SLOPE] - own[CLIMBS] * by_d;
+    lambda[ROAD_D] *= own[STAYS];
 }
 
 /* c <- F c of a vector whose elements lie `apart` numbers apart. */
 static void carry(const double *own, double span, double *c, size_t apart)
 {
-    double *r = c, *v = c + ROAD_V * apart, *z = c + ROAD_Z * apart, *s = c + ROAD_SLOPE * apart;
+    double *r = c, *v = c + ROAD_V * apart, *d = c + ROAD_D * apart, *s = c + ROAD_SLOPE * apart;
     double bias = c[ROAD_BIAS * apart], lean = c[ROAD_LEAN * apart], tilt = c[ROAD_TILT * apart];
-    *r += span * (*v - 0.5 * span * bias);
-    *r -= own[LEAN_TWICE] * lean + own[TILT_TWICE] * tilt;
+    double rise = span * (*v - 0.5 * span * bias);
+    rise -= own[LEAN_TWICE] * lean + own[TILT_TWICE] * tilt;
+    *d = own[STAYS] * *d + rise + ((1.0 - own[STAYS]) * *r - own[CLIMBS] * *s);
+    *r += rise;
     *v -= span * bias + own[LEAN_ONCE] * lean + own[TILT_ONCE] * tilt;
-    *z = own[STAYS] * *z + own[CLIMBS] * *s;
     *s *= own[STAYS];
 }
 
@@ -53,7 +55,7 @@ static void forth_road(const double *own, double span, double *psi)
     }
 }
 
-static const double row_of_reading[FR_ROAD_STATES] = {1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0};
+static const double row_of_reading[FR_ROAD_STATES] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
 
 const fr_lag_model fr_road_lag_model = {FR_ROAD_STATES, FR_ROAD_OWN,  row_of_reading, back_road,
                                         forth_road,     NULL,         0};
@@ -75,11 +77,12 @@ static void integrate_inputs(const fr_road_model *model, const fr_road_filter *f
 static void predict_state(const fr_road_ends *ends, const double *own, double r, double v, double *x)
 {
     double span = ends->span;
+    double z = own[STAYS] * (x[ROAD_R] - x[ROAD_D]) + own[CLIMBS] * x[ROAD_SLOPE];
     x[ROAD_R] = r - 0.5 * span * span * x[ROAD_BIAS] - own[LEAN_TWICE] * x[ROAD_LEAN] -
                 own[TILT_TWICE] * x[ROAD_TILT];
     x[ROAD_V] = v - span * x[ROAD_BIAS] - own[LEAN_ONCE] * x[ROAD_LEAN] -
                 own[TILT_ONCE] * x[ROAD_TILT];
-    x[ROAD_Z] = own[STAYS] * x[ROAD_Z] + own[CLIMBS] * x[ROAD_SLOPE];
+    x[ROAD_D] = x[ROAD_R] - z;
     x[ROAD_SLOPE] *= own[STAYS];
 }
 
@@ -88,6 +91,15 @@ static void spread(double p[FR_ROAD_STATES][FR_ROAD_STATES], int i, int j, doubl
     p[i][j] += value;
     if (i != j)
         p[j][i] += value;
+}
+
+/* Add a covariance of the height's noise, which is the clearance's too, with a state's. */
+static void shake(double p[FR_ROAD_STATES][FR_ROAD_STATES], int state, double value)
+{
+    spread(p, ROAD_R, state, value);
+    spread(p, ROAD_D, state, value);
+    if (state == ROAD_R)
+        p[ROAD_D][ROAD_D] += value;
 }
 
 /* What travel brings of new road, without differences of exponentials: the integrals of
@@ -99,8 +111,8 @@ static void roughen(const fr_road_model *model, double travel,
     double fresh = -0.5 * model->reach * expm1(-gone);
     double once = fresh * travel / (2.0 + gone / 3.0);
     double twice = fresh * travel * travel / (3.0 + 0.75 * gone);
-    spread(p, ROAD_Z, ROAD_Z, model->road * fresh + model->slope * twice);
-    spread(p, ROAD_Z, ROAD_SLOPE, model->slope * once);
+    spread(p, ROAD_D, ROAD_D, model->road * fresh + model->slope * twice);
+    spread(p, ROAD_D, ROAD_SLOPE, -model->slope * once);
     spread(p, ROAD_SLOPE, ROAD_SLOPE, model->slope * fresh);
 }
 
@@ -111,10 +123,10 @@ static void add_noise(const fr_road_model *model, const fr_road_filter *filter,
     double walk = model->walk + model->walk_along * along;
     double white = model->white + (model->gap - model->white) * ends->missing;
     double span = ends->span, t2 = span * span, t3 = span * span * span;
-    spread(p, ROAD_R, ROAD_R, white * t3 / 3.0 + walk * t3 * t2 / 20.0);
-    spread(p, ROAD_R, ROAD_V, white * t2 / 2.0 + walk * t2 * t2 / 8.0);
+    shake(p, ROAD_R, white * t3 / 3.0 + walk * t3 * t2 / 20.0);
+    shake(p, ROAD_V, white * t2 / 2.0 + walk * t2 * t2 / 8.0);
     spread(p, ROAD_V, ROAD_V, white * span + walk * t3 / 3.0);
-    spread(p, ROAD_R, ROAD_BIAS, -walk * t3 / 6.0);
+    shake(p, ROAD_BIAS, -walk * t3 / 6.0);
     spread(p, ROAD_V, ROAD_BIAS, -walk * t2 / 2.0);
     spread(p, ROAD_BIAS, ROAD_BIAS, walk * span);
     roughen(model, ends->travel, p);
@@ -152,8 +164,7 @@ static void renew(fr_road_filter *filter, int state, double expected, double var
 
 static double expected_square(const fr_road_model *model, const fr_road_filter *filter)
 {
-    return filter->p[ROAD_R][ROAD_R] - 2.0 * filter->p[ROAD_R][ROAD_Z] +
-           filter->p[ROAD_Z][ROAD_Z] + model->reading;
+    return filter->p[ROAD_D][ROAD_D] + model->reading;
 }
 
 /* At a standstill, take the road for another one where a reading is too far off for this. */
@@ -161,22 +172,22 @@ static int let_go(const fr_road_model *model, fr_road_filter *filter, double err
 {
     if (filter->still < STANDING_S || error * error <= model->edge * expected_square(model, filter))
         return 0;
-    filter->p[ROAD_Z][ROAD_Z] += error * error;
+    filter->p[ROAD_D][ROAD_D] += error * error;
     return 1;
 }
 
-/* P <- (I - K H) P (I - K H)' + K R K', with H of +1 for the height and -1 for the road. */
+/* P <- (I - K H) P (I - K H)' + K R K', with H of 1 for the clearance. */
 static void update_covariance(double variance, const double *gain,
                               double p[FR_ROAD_STATES][FR_ROAD_STATES])
 {
     for (int i = 0; i < FR_ROAD_STATES; i++) {
-        double seen = p[i][ROAD_R] - p[i][ROAD_Z];
+        double seen = p[i][ROAD_D];
         for (int j = 0; j < FR_ROAD_STATES; j++)
             p[i][j] -= seen * gain[j];
     }
     for (int j = 0; j < FR_ROAD_STATES; j++) {
-        double seen = p[ROAD_R][j] - p[ROAD_Z][j];
-        for (int i = 0; i < FR_ROAD_STATES; i++)
+        double seen = p[ROAD_D][j];
+        for (int i = 0; i <= j; i++)
             p[i][j] -= gain[i] * seen;
     }
     for (int i = 0; i < FR_ROAD_STATES; i++) {
@@ -191,11 +202,11 @@ static void update(const fr_road_model *model, fr_road_filter *filter, double se
                    fr_road_node *node)
 {
     double *x = filter->x, total;
-    node->error = seen - x[ROAD_R] + x[ROAD_Z];
+    node->error = seen - x[ROAD_D];
     node->let_go = let_go(model, filter, node->error);
     total = expected_square(model, filter);
     for (int i = 0; i < FR_ROAD_STATES; i++) {
-        node->gain[i] = (filter->p[i][ROAD_R] - filter->p[i][ROAD_Z]) / total;
+        node->gain[i] = filter->p[i][ROAD_D] / total;
         x[i] += node->gain[i] * node->error;
     }
     update_covariance(model->reading, node->gain, filter->p);

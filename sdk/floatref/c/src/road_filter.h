@@ -2,9 +2,10 @@
  *
  * The forward pass of the road-prior smoother at one node, in the order of the SDK's kernel.
  *
- * States are height r, velocity v, bias b, road z, its slope s and the coefficients k of two inputs
- * u, with r'' = a - b - k u, and z and s processes of the distance travelled; a reading of the
- * height sensor is r - z.
+ * States are height r, velocity v, bias b, clearance d = r - z above the road z, its slope s and the
+ * coefficients k of two inputs u, with r'' = a - b - k u, and z and s processes of the distance
+ * travelled; a reading of the height sensor is d. The road itself is no state: r and z are unknown
+ * by a metre, and known to a tenth of a millimetre against each other.
  */
 #ifndef FR_ROAD_FILTER_H
 #define FR_ROAD_FILTER_H
@@ -12,7 +13,7 @@
 #include "fixed_lag.h"
 
 enum { FR_ROAD_STATES = 7, FR_ROAD_OWN = 7 };
-enum { ROAD_R = 0, ROAD_V = 1, ROAD_BIAS = 2, ROAD_Z = 3, ROAD_SLOPE = 4, ROAD_LEAN = 5, ROAD_TILT = 6 };
+enum { ROAD_R = 0, ROAD_V = 1, ROAD_BIAS = 2, ROAD_D = 3, ROAD_SLOPE = 4, ROAD_LEAN = 5, ROAD_TILT = 6 };
 
 /* What sensors, vehicle and road are taken for; variances and squares of densities. */
 typedef struct fr_road_model {

@@ -147,14 +147,17 @@ static fr_road_model model_of(const fr_road_prior_config *c)
 static void begin_states(const fr_road_prior_config *c, fr_road_filter *filter)
 {
     double reach = c->road_reach_m, half = reach / 2.0;
+    double road_m2 = c->road_m * half + c->long_waves_per_m * (reach * reach * reach) / 4.0;
     double(*p)[FR_ROAD_STATES] = filter->p;
     p[ROAD_R][ROAD_R] = 1.0;
     p[ROAD_V][ROAD_V] = 1.0;
     p[ROAD_BIAS][ROAD_BIAS] = c->acceleration_bias * c->acceleration_bias;
-    p[ROAD_Z][ROAD_Z] = c->road_m * half + c->long_waves_per_m * (reach * reach * reach) / 4.0;
+    p[ROAD_D][ROAD_D] = 1.0 + road_m2;
+    p[ROAD_D][ROAD_R] = 1.0;
+    p[ROAD_R][ROAD_D] = 1.0;
     p[ROAD_SLOPE][ROAD_SLOPE] = c->long_waves_per_m * half;
-    p[ROAD_Z][ROAD_SLOPE] = c->long_waves_per_m * (half * half);
-    p[ROAD_SLOPE][ROAD_Z] = p[ROAD_Z][ROAD_SLOPE];
+    p[ROAD_D][ROAD_SLOPE] = -c->long_waves_per_m * (half * half);
+    p[ROAD_SLOPE][ROAD_D] = p[ROAD_D][ROAD_SLOPE];
     p[ROAD_LEAN][ROAD_LEAN] = c->lean_sigma_rad * c->lean_sigma_rad;
     p[ROAD_TILT][ROAD_TILT] = c->tilt_sigma * c->tilt_sigma;
     filter->x[ROAD_LEAN] = c->lean_expected_rad;

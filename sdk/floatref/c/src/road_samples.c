@@ -121,9 +121,11 @@ static void sum_sample(fr_road_prior *road, const fr_road_input *input, size_t i
     motion->height_missing = fr_missing(h);
     if (!fr_missing(h))
         motion->seen = (double)h;
-    /* The filter begins at the first height. */
-    if (road->nodes == 0)
+    /* The filter begins at the first height, and the road at 0. */
+    if (road->nodes == 0) {
         road->filter.x[ROAD_R] = motion->seen;
+        road->filter.x[ROAD_D] = motion->seen;
+    }
     if (fr_missing(a)) {
         motion->lost++;
         motion->flags |= FR_POINT_MISSING;

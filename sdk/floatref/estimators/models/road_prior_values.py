@@ -10,10 +10,11 @@ import numpy as np
 from floatref.values.arrays import FloatArray, Records
 
 STATES = 7
-HEIGHT, VELOCITY, BIAS, ROAD, SLOPE, LEAN, TILT = range(STATES)
-"""Height, velocity, bias of the acceleration, elevation of the road under the laser and slope of
-its long waves, and what longitudinal acceleration, and that times the pitch response, add to the
-acceleration."""
+HEIGHT, VELOCITY, BIAS, CLEARANCE, SLOPE, LEAN, TILT = range(STATES)
+"""Height, velocity, bias of the acceleration, clearance above the road under the laser and slope of
+the road's long waves, and what longitudinal acceleration, and that times the pitch response, add to
+the acceleration. The road itself is no state: height and road are unknown by a metre, and known to
+a tenth of a millimetre against each other, which rounding would take from their covariance."""
 
 
 class Model(NamedTuple):

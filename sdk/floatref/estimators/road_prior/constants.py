@@ -5,7 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.estimators.models.road_prior_values import ROAD, SLOPE, Model
+from floatref.estimators.models.road_prior_values import (
+    CLEARANCE,
+    HEIGHT,
+    SLOPE,
+    Model,
+)
 from floatref.values.arrays import FloatArray
 
 LEAST_MEMORY_M = 32.0
@@ -95,8 +100,9 @@ class RoadPrior:
         road_m2 = self.road * half + self.long_waves * reach**3 / 4.0
         deviations = self.acceleration_bias, self.lean_sigma_rad, self.tilt_sigma
         bias, lean, tilt = np.square(deviations)
-        found = np.diag([1.0, 1.0, bias, road_m2, self.long_waves * half, lean, tilt])
-        found[ROAD, SLOPE] = found[SLOPE, ROAD] = self.long_waves * half**2
+        found = np.diag([1.0, 1.0, bias, 1.0 + road_m2, self.long_waves * half, lean, tilt])
+        found[CLEARANCE, HEIGHT] = found[HEIGHT, CLEARANCE] = 1.0
+        found[CLEARANCE, SLOPE] = found[SLOPE, CLEARANCE] = -self.long_waves * half**2
         return found
 
 

@@ -1,9 +1,9 @@
 """The forward pass of the road-prior smoother: a linear Kalman filter over sub-blocks.
 
-States are height r, velocity v, bias b, road z, its slope s and the coefficients k of two inputs u,
-with r'' = a - b - k u, and z and s processes of the distance travelled; a reading of the height
-sensor is r - z. Accelerations and inputs are linear between samples and between nodes, so that all
-integrals are exact.
+States are height r, velocity v, bias b, clearance d = r - z above the road z, its slope s and the
+coefficients k of two inputs u, with r'' = a - b - k u, and z and s processes of the distance
+travelled; a reading of the height sensor is d. Accelerations and inputs are linear between samples
+and between nodes, so that all integrals are exact.
 """
 
 from math import exp, expm1
@@ -12,9 +12,9 @@ import numpy as np
 
 from floatref.estimators.models.road_prior_values import (
     BIAS,
+    CLEARANCE,
     HEIGHT,
     LEAN,
-    ROAD,
     SLOPE,
     STATES,
     TILT,
@@ -105,7 +105,7 @@ def _node(
         _renew(LEAN, model.lean, model.lean_prior, x, p)
         _renew(TILT, model.tilt, model.tilt_prior, x, p)
     if known.seen == known.seen:
-        innovation = known.seen - x[HEIGHT] + x[ROAD]
+        innovation = known.seen - x[CLEARANCE]
         _let_go(model, innovation, memory.still, p)
         _update(innovation, model.reading, x, p, updates[done])
         done += 1
@@ -143,9 +143,8 @@ def _let_go(model: Model, innovation: float, still: float, p: FloatArray) -> Non
     """At a standstill, take the road for another one where a reading is too far off for this."""
     if still < STANDING_S:
         return
-    expected = p[HEIGHT, HEIGHT] - 2.0 * p[HEIGHT, ROAD] + p[ROAD, ROAD] + model.reading
-    if innovation * innovation > model.edge * expected:
-        p[ROAD, ROAD] += innovation * innovation
+    if innovation * innovation > model.edge * (p[CLEARANCE, CLEARANCE] + model.reading):
+        p[CLEARANCE, CLEARANCE] += innovation * innovation
 
 
 @compiled
@@ -155,16 +154,13 @@ def _predict(model: Model, known: np.record, span: float, node: np.record, state
     Height and velocity without the states' part are integrated already.
     """
     x, p, memory = state.x, state.p, state.memory
-    x[HEIGHT] = (
-        memory.height
-        - 0.5 * span * span * x[BIAS]
-        - node.lean_twice * x[LEAN]
-        - node.tilt_twice * x[TILT]
-    )
+    road = node.stays * (x[HEIGHT] - x[CLEARANCE]) + node.climbs * x[SLOPE]
+    x[HEIGHT] = memory.height - 0.5 * span * span * x[BIAS]
+    x[HEIGHT] -= node.lean_twice * x[LEAN] + node.tilt_twice * x[TILT]
     x[VELOCITY] = (
         memory.velocity - span * x[BIAS] - node.lean_once * x[LEAN] - node.tilt_once * x[TILT]
     )
-    x[ROAD] = node.stays * x[ROAD] + node.climbs * x[SLOPE]
+    x[CLEARANCE] = x[HEIGHT] - road
     x[SLOPE] *= node.stays
     # Rows of P F', and once turned, of F P F'.
     for i in range(STATES):
@@ -178,10 +174,10 @@ def _predict(model: Model, known: np.record, span: float, node: np.record, state
     walk = model.walk + model.walk_along * along
     white = model.white + (model.gap - model.white) * known.missing
     t2, t3 = span * span, span * span * span
-    _spread(p, HEIGHT, HEIGHT, white * t3 / 3.0 + walk * t3 * t2 / 20.0)
-    _spread(p, HEIGHT, VELOCITY, white * t2 / 2.0 + walk * t2 * t2 / 8.0)
+    _shake(p, HEIGHT, white * t3 / 3.0 + walk * t3 * t2 / 20.0)
+    _shake(p, VELOCITY, white * t2 / 2.0 + walk * t2 * t2 / 8.0)
+    _shake(p, BIAS, -walk * t3 / 6.0)
     _spread(p, VELOCITY, VELOCITY, white * span + walk * t3 / 3.0)
-    _spread(p, HEIGHT, BIAS, -walk * t3 / 6.0)
     _spread(p, VELOCITY, BIAS, -walk * t2 / 2.0)
     _spread(p, BIAS, BIAS, walk * span)
     _roughen(model, known.travel, p)
@@ -195,18 +191,20 @@ def _roughen(model: Model, travel: float, p: FloatArray) -> None:
     # The integrals of x exp(-2x / reach) and of its x-fold, within 1e-3 gone^2.
     once = fresh * travel / (2.0 + gone / 3.0)
     twice = fresh * travel * travel / (3.0 + 0.75 * gone)
-    _spread(p, ROAD, ROAD, model.road * fresh + model.slope * twice)
-    _spread(p, ROAD, SLOPE, model.slope * once)
+    _spread(p, CLEARANCE, CLEARANCE, model.road * fresh + model.slope * twice)
+    _spread(p, CLEARANCE, SLOPE, -model.slope * once)
     _spread(p, SLOPE, SLOPE, model.slope * fresh)
 
 
 @compiled
 def _carry(node: np.record, span: float, c: FloatArray) -> None:
     """Replace ``c`` by F c."""
-    c[HEIGHT] += span * (c[VELOCITY] - 0.5 * span * c[BIAS])
-    c[HEIGHT] -= node.lean_twice * c[LEAN] + node.tilt_twice * c[TILT]
+    rise = span * (c[VELOCITY] - 0.5 * span * c[BIAS])
+    rise -= node.lean_twice * c[LEAN] + node.tilt_twice * c[TILT]
+    sinks = (1.0 - node.stays) * c[HEIGHT] - node.climbs * c[SLOPE]
+    c[CLEARANCE] = node.stays * c[CLEARANCE] + rise + sinks
+    c[HEIGHT] += rise
     c[VELOCITY] -= span * c[BIAS] + node.lean_once * c[LEAN] + node.tilt_once * c[TILT]
-    c[ROAD] = node.stays * c[ROAD] + node.climbs * c[SLOPE]
     c[SLOPE] *= node.stays
 
 
@@ -215,6 +213,15 @@ def _spread(p: FloatArray, i: int, j: int, value: float) -> None:
     p[i, j] += value
     if i != j:
         p[j, i] += value
+
+
+@compiled
+def _shake(p: FloatArray, state: int, value: float) -> None:
+    """Add a covariance of the height's noise, which is the clearance's too, with a ``state``'s."""
+    _spread(p, HEIGHT, state, value)
+    _spread(p, CLEARANCE, state, value)
+    if state == HEIGHT:
+        p[CLEARANCE, CLEARANCE] += value
 
 
 @compiled
@@ -229,20 +236,20 @@ def _renew(state: int, expected: float, variance: float, x: FloatArray, p: Float
 def _update(
     innovation: float, variance: float, x: FloatArray, p: FloatArray, update: np.record
 ) -> None:
-    """Joseph form with H of +1 for the height and -1 for the road."""
+    """Joseph form with H of 1 for the clearance."""
     gain = update.gain
-    total = p[HEIGHT, HEIGHT] - 2.0 * p[HEIGHT, ROAD] + p[ROAD, ROAD] + variance
+    total = p[CLEARANCE, CLEARANCE] + variance
     for i in range(STATES):
-        gain[i] = (p[i, HEIGHT] - p[i, ROAD]) / total
+        gain[i] = p[i, CLEARANCE] / total
         x[i] += gain[i] * innovation
     # P (I - K H)', then (I - K H) times that, then K R K' added.
     for i in range(STATES):
-        seen = p[i, HEIGHT] - p[i, ROAD]
+        seen = p[i, CLEARANCE]
         for j in range(STATES):
             p[i, j] -= seen * gain[j]
     for j in range(STATES):
-        seen = p[HEIGHT, j] - p[ROAD, j]
-        for i in range(STATES):
+        seen = p[CLEARANCE, j]
+        for i in range(j + 1):
             p[i, j] -= gain[i] * seen
     for i in range(STATES):
         for j in range(i, STATES):

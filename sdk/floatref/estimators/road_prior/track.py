@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from floatref.estimators.models.road_prior_values import (
+    CLEARANCE,
     ENDS,
     HEIGHT,
     MEMORY,
@@ -67,7 +68,8 @@ class RoadTrack:
         """Return the filter before its first sample, at the height ``start_m``."""
         model = constants.model(step, sub_block(step))
         state = Filter(np.zeros(STATES), constants.start(), new_record(MEMORY))
-        state.x[HEIGHT] = state.memory.height = start_m
+        # The road begins at 0.
+        state.x[HEIGHT] = state.x[CLEARANCE] = state.memory.height = start_m
         state.x[BOTH] = constants.lean_expected_rad, constants.tilt_expected
         spectrum = RoadSpectrum.of(constants, step * model.sub_block)
         return cls(model, state, spectrum, [(0, spectrum.bend_m)], model.reading)

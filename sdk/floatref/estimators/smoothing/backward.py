@@ -1,9 +1,8 @@
 """The Bryson-Frazier backward pass over the nodes of a filter, for every smoother.
 
 The adjoint lambda takes the place of the gain L of (6.17): x_s = x - P lambda, without an inverse
-of P. What a model has of its own is F, the states that begin anew, and H where it is the same for
-all readings: four functions below, of which the fields of a node or an update choose one when the
-pass is compiled. All are in this file, since numba sees no change in the files of functions called.
+of P. What a model has of its own, F and H, are four functions below, chosen by fields of a node or
+an update when it is compiled. All are here, since numba sees no change in other files.
 """
 
 import numpy as np
@@ -161,13 +160,15 @@ def _back_kalman(node: np.record, span: float, adjoint: FloatArray) -> None:
 def _back_road(node: np.record, span: float, adjoint: FloatArray) -> None:
     if node.renewed > 0.0:
         adjoint[road.LEAN], adjoint[road.TILT] = 0.0, 0.0
-    by_r, by_v = adjoint[HEIGHT], adjoint[VELOCITY]
+    by_d, by_v = adjoint[road.CLEARANCE], adjoint[VELOCITY]
+    by_r = adjoint[HEIGHT] + by_d
+    adjoint[HEIGHT] += (1.0 - node.stays) * by_d
     adjoint[VELOCITY] += span * by_r
     adjoint[road.BIAS] -= span * (by_v + 0.5 * span * by_r)
     adjoint[road.LEAN] -= node.lean_twice * by_r + node.lean_once * by_v
     adjoint[road.TILT] -= node.tilt_twice * by_r + node.tilt_once * by_v
-    adjoint[road.SLOPE] = node.stays * adjoint[road.SLOPE] + node.climbs * adjoint[road.ROAD]
-    adjoint[road.ROAD] *= node.stays
+    adjoint[road.SLOPE] = node.stays * adjoint[road.SLOPE] - node.climbs * by_d
+    adjoint[road.CLEARANCE] *= node.stays
 
 
 @compiled
@@ -210,10 +211,12 @@ def _forth_kalman(node: np.record, span: float, psi: FloatArray) -> None:
 def _forth_road(node: np.record, span: float, psi: FloatArray) -> None:
     for c in range(road.STATES):
         bias, lean, tilt = psi[road.BIAS, c], psi[road.LEAN, c], psi[road.TILT, c]
-        psi[HEIGHT, c] += span * (psi[VELOCITY, c] - 0.5 * span * bias)
-        psi[HEIGHT, c] -= node.lean_twice * lean + node.tilt_twice * tilt
+        rise = span * (psi[VELOCITY, c] - 0.5 * span * bias)
+        rise -= node.lean_twice * lean + node.tilt_twice * tilt
+        sinks = (1.0 - node.stays) * psi[HEIGHT, c] - node.climbs * psi[road.SLOPE, c]
+        psi[road.CLEARANCE, c] = node.stays * psi[road.CLEARANCE, c] + rise + sinks
+        psi[HEIGHT, c] += rise
         psi[VELOCITY, c] -= span * bias + node.lean_once * lean + node.tilt_once * tilt
-        psi[road.ROAD, c] = node.stays * psi[road.ROAD, c] + node.climbs * psi[road.SLOPE, c]
         psi[road.SLOPE, c] *= node.stays
         if node.renewed > 0.0:
             psi[road.LEAN, c], psi[road.TILT, c] = 0.0, 0.0
@@ -228,8 +231,7 @@ def _take_kalman(update: np.record, total: float, adjoint: FloatArray) -> None:
 
 @compiled
 def _take_road(update: np.record, total: float, adjoint: FloatArray) -> None:
-    adjoint[HEIGHT] -= total
-    adjoint[road.ROAD] += total
+    adjoint[road.CLEARANCE] -= total
 
 
 @compiled
@@ -245,7 +247,7 @@ def _see_kalman(update: np.record, psi: FloatArray, seen: FloatArray) -> None:
 @compiled
 def _see_road(update: np.record, psi: FloatArray, seen: FloatArray) -> None:
     for c in range(road.STATES):
-        seen[c] = psi[HEIGHT, c] - psi[road.ROAD, c]
+        seen[c] = psi[road.CLEARANCE, c]
 
 
 _back = chosen("transition", _back_kalman, _back_road)

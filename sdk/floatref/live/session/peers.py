@@ -50,7 +50,7 @@ def standard_streams() -> Iterator[Peer]:
 @contextmanager
 def followed(path: Path) -> Iterator[Peer]:
     """Yield what writes the file ``path``; answers go to standard output."""
-    with open_bytes(path) as stream:
+    with open_bytes(path, grows=True) as stream:
         # A raw stream of our own is what `BufferedReader` documents to take.
         growing: Any = BufferedReader(GrowingFile(path, stream))
         yield Peer(growing, write_to_output, str(path), from_start=True)

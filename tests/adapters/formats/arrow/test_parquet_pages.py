@@ -25,7 +25,7 @@ HUGE = b"\xfe\xff\xff\xff\x0f"
 """2^31 - 1, as the compact protocol writes it."""
 MOST_KIB = 256 << 10
 READ = """
-import resource, sys
+import sys
 from pathlib import Path
 from floatref import InputError
 from floatref_adapters.formats.arrow.adapter import Parquet
@@ -36,7 +36,9 @@ for name in sys.argv[1:]:
                 pass
     except InputError:
         pass
-print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+# What getrusage counts begins with the memory of the process that started this one.
+status = Path("/proc/self/status").read_text().splitlines()
+print(next(line.split()[1] for line in status if line.startswith("VmHWM")))
 """
 
 
@@ -98,7 +100,7 @@ def test_no_bytes_break_the_reader_of_structs(content: bytes) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(sys.platform != "linux", reason="the peak of memory has another unit elsewhere")
+@pytest.mark.skipif(sys.platform != "linux", reason="the peak is read in /proc")
 @settings(max_examples=3)
 @given(st.randoms(use_true_random=False))
 def test_bytes_overwritten_anywhere_take_little_memory(
@@ -106,7 +108,7 @@ def test_bytes_overwritten_anywhere_take_little_memory(
 ) -> None:
     folder = tmp_path_factory.mktemp("parquet")
     names = []
-    for number in range(200):
+    for number in range(60):
         version, packed = draw.choice(["1.0", "2.0"]), draw.choice(["snappy", "zstd"])
         content = bytearray(write(folder / "sound.parquet", version, packed))
         at = draw.randrange(4, len(content) - 8)

@@ -1,10 +1,13 @@
 """One task: its profile is that of `floatref process`, and it is all or nothing."""
 
 import json
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -236,3 +239,12 @@ def test_what_a_plug_in_does_to_one_file_is_not_said_of_the_next(
     for _ in range(2):
         warnings = run_job(jobs["directory"]).warnings
         assert sum("cannot tell of run" in line for line in warnings) == 1
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="the peak is that of /proc")
+def test_the_peak_of_a_process_is_not_that_of_the_one_that_started_it():
+    held = np.ones(80_000_000)
+    code = "from floatref.batch.work.task import peak_bytes; print(peak_bytes())"
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout
+    assert int(found) < held.nbytes

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
-from floatref.estimators.road_prior.forward import ROAD, _let_go
+from floatref.estimators.road_prior.forward import CLEARANCE, _let_go
 from floatref.values.channels import ChannelId
 
 RATE = 500
@@ -62,4 +62,4 @@ class Edge(NamedTuple):
 def test_a_vehicle_has_to_stand_for_a_twentieth_of_a_second(still_s):
     covariance = np.zeros((8, 8))
     _let_go.py_func(Edge(36.0, 1e-8), 0.02, still_s, covariance)
-    assert covariance[ROAD, ROAD] == (0.02**2 if still_s >= 0.05 else 0.0)
+    assert covariance[CLEARANCE, CLEARANCE] == (0.02**2 if still_s >= 0.05 else 0.0)

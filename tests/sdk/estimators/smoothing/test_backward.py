@@ -58,8 +58,10 @@ class Road:
         F[0, 1], F[0, road.BIAS], F[1, road.BIAS] = span, -(span**2) / 2, -span
         F[0, road.LEAN], F[1, road.LEAN] = -node["lean_twice"], -node["lean_once"]
         F[0, road.TILT], F[1, road.TILT] = -node["tilt_twice"], -node["tilt_once"]
-        F[road.ROAD, road.ROAD] = F[road.SLOPE, road.SLOPE] = node["stays"]
-        F[road.ROAD, road.SLOPE] = node["climbs"]
+        # The clearance is the height less a road that fades and climbs.
+        F[road.CLEARANCE] = F[0] - node["stays"] * np.eye(road.STATES)[0]
+        F[road.CLEARANCE, road.CLEARANCE] = F[road.SLOPE, road.SLOPE] = node["stays"]
+        F[road.CLEARANCE, road.SLOPE] = -node["climbs"]
         if node["renewed"]:
             J[road.LEAN, road.LEAN] = J[road.TILT, road.TILT] = 0.0
         return J @ F
@@ -67,7 +69,7 @@ class Road:
     @staticmethod
     def row(update):
         row = np.zeros(road.STATES)
-        row[road.HEIGHT], row[road.ROAD] = 1.0, -1.0
+        row[road.CLEARANCE] = 1.0
         return row
 
 
