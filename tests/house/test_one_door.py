@@ -69,8 +69,10 @@ ALLOWED = {
     "conformance/floatref_conformance/proving_ground/cache.py:read_bytes": "files of the package",
     "conformance/floatref_conformance/proving_ground/drives/runs.py:read_text": "of the package",
     "conformance/floatref_conformance/table/published.py:read_text": "a file of the package",
+    "conformance/floatref_conformance/submission/stored_zip.py:ZipFile": "on what the door opened",
     "sdk/floatref/files/owners.py:read_text": "what the system tells in /proc",
     "sdk/floatref/files/owners.py:read_bytes": "what the system tells in /proc",
+    "conformance/floatref_conformance/mutants/flaws.py:read_text": "a file of the package",
     "conformance/floatref_conformance/samples/network.py:read_bytes": "what it has just written",
 }
 """Where another opening is right, and why."""

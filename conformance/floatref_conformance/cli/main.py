@@ -12,6 +12,14 @@ COMMANDS = {
     "simulate": ("floatref_conformance.cli.simulate:simulate", "write a simulated recording"),
     "sample": ("floatref_conformance.cli.sample:sample", "write data to try a command on"),
     "replay": ("floatref_conformance.cli.replay:replay", "run one kept case again"),
+    "submit": (
+        "floatref_conformance.cli.submissions.submit:submit",
+        "judge, and pack what others can check",
+    ),
+    "verify": (
+        "floatref_conformance.cli.submissions.verify:verify",
+        "repeat what a submission rests on",
+    ),
     "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),
     "explain": ("floatref_conformance.cli.explain:explain", "explain what a check asks, and why"),
     "selftest": ("floatref_conformance.cli.selftest:selftest", "test the suite itself"),

@@ -19,6 +19,7 @@ MISSING = {
     "sample": "no sample",
     "selftest": "no counts",
     "certify": "no worksheet",
+    "submit": "no archive",
 }
 """What a sub-command that stops early leaves its caller without; for others it is a verdict."""
 

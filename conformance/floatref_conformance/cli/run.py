@@ -2,73 +2,32 @@
 
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import click
 
 from floatref_conformance.case_files import read_cases
-from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.cli.following import follow
-from floatref_conformance.cli.options import (
-    class_of,
-    env_option,
-    limit_time,
-    pass_variables,
-    reports_into,
-    tell_where_truth_is,
+from floatref_conformance.cli.judging_options import (
+    RECOMMENDED,
+    Asked,
+    judging_options,
+    make_plan,
 )
-from floatref_conformance.editions.edition import find_edition
+from floatref_conformance.cli.options import env_option, reports_into
 from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.in_processes import refuse_processes
-from floatref_conformance.judge.runner import Plan
-from floatref_conformance.judge.search import check_installed
-from floatref_conformance.judge.stream_judging import StreamPlan
-from floatref_conformance.judge.waivers import check_used, read_waivers
+from floatref_conformance.judge.waivers import check_used
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.report import JsonOutput
 from floatref_conformance.render.terminal import TerminalRenderer, make_console
 
-RECOMMENDED = "builtin:road-prior-smoother"
+__all__ = ["RECOMMENDED", "run"]
 
 
 @click.command()
-@click.option(
-    "--device",
-    "spec",
-    metavar="SPEC",
-    default=RECOMMENDED,
-    show_default=True,
-    help="Device to judge; `conformance list` names them.",
-)
-@click.option(
-    "--class",
-    "device_class",
-    type=click.Choice([c.value for c in DeviceClass]),
-    help="Class whose limits decide.  [default: what a built-in claims, else nominal]",
-)
-@click.option(
-    "--effort",
-    type=click.Choice([e.value for e in Effort]),
-    default=Effort.QUICK.value,
-    show_default=True,
-    help="How many cases each check draws.",
-)
-@click.option(
-    "--check", "ids", metavar="ID", multiple=True, help="Run this check alone; may be repeated."
-)
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
-@click.option(
-    "--waive",
-    metavar="FILE",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="Known failures: a check's id and why, one a line.",
-)
-@click.option(
-    "--device-timeout",
-    metavar="SECONDS",
-    type=click.FloatRange(min=0, min_open=True),
-    help="Time for one recording.  [default: 60 s and twice its length]",
-)
+@judging_options
 @click.option(
     "--report",
     type=click.Path(file_okay=False, path_type=Path),
@@ -94,19 +53,12 @@ RECOMMENDED = "builtin:road-prior-smoother"
 @click.pass_context
 def run(
     context: click.Context,
-    spec: str,
-    device_class: str | None,
-    effort: str,
-    ids: tuple[str, ...],
-    seed: int,
-    waive: Path | None,
-    device_timeout: float | None,
-    variables: tuple[str, ...],
+    /,
     report: Path | None,
     jobs: int,
     verbose: bool,
     as_json: bool,
-    edition: str,
+    **options: Any,
 ) -> None:
     """Judge a device.
 
@@ -115,44 +67,21 @@ def run(
     Exit code 0: PASS; 1: FAIL; 2: wrong usage; 3: the suite itself is at fault, no verdict, or
     the report could not be written; 4: INCOMPLETE, since checks were left out, skipped or waived.
     """
-    registry = load_registry(edition)
+    asked = Asked(**options)
+    registry = load_registry(asked.edition)
     for line in registry.broken:
         click.echo(f"Warning: {line}", err=True)
-    checks, left_out = registry.select(ids)
-    waivers = {} if waive is None else read_waivers(waive, registry.checks)
-    kept = () if report is None else read_cases(report, edition)
-    device = registry.device(spec)
+    kept = () if report is None else read_cases(report, asked.edition)
+    device = registry.device(asked.spec)
     with ExitStack() as folders:
         with close_on_error(device):
-            limit_time(device, device_timeout)
-            pass_variables(device, variables)
-            tell_where_truth_is(device)
-            plan = Plan(
-                spec,
-                device,
-                checks,
-                left_out,
-                class_of(device, device_class),
-                seed,
-                Effort(effort),
-                kept,
-                searching=getattr(device, "searchable", True),
-                ahead=True,
-                waivers=waivers,
-                timeout_s=device_timeout,
-                variables=variables,
-                report=report,
-                edition=find_edition(edition),
-                streams=StreamPlan.of(ids),
-            )
-            if plan.searching:
-                check_installed()
+            plan = make_plan(asked, registry, device, kept, report)
             refuse_processes(plan, jobs)
             writers = folders.enter_context(reports_into(report))
         if as_json:
             writers.append(JsonOutput(click.echo))
         terminal = TerminalRenderer(make_console(stderr=as_json), verbose)
         finished = follow(plan, terminal, writers, jobs)
-    if waive is not None:
-        check_used(waivers, finished, waive)
+    if asked.waive is not None:
+        check_used(plan.waivers, finished, asked.waive)
     context.exit(finished.verdict.exit_code)

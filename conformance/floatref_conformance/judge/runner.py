@@ -6,7 +6,6 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from floatref.errors import InputError
 from floatref_conformance.case_files import KeptCase
 from floatref_conformance.checks.catalogue import IDS, LeftOut
 from floatref_conformance.checks.interface import Check, fit_check
@@ -30,7 +29,7 @@ from floatref_conformance.judge.judging import (
     not_applicable_result,
 )
 from floatref_conformance.judge.stream_judging import StreamPlan, StreamTrial, judge_streams
-from floatref_conformance.judge.trial import Trial
+from floatref_conformance.judge.trial import StoredResults, Trial
 from floatref_conformance.judge.waivers import waive
 
 UNDESCRIBED = Description("unknown", "unknown", "unknown", ())
@@ -58,6 +57,7 @@ class Plan:
             variables that the device gets; the report names them, so that the run can be
             reproduced.
         streams: the checks of streams, for a device that streams.
+        stored: results in place of those of the device, by check and case.
     """
 
     spec: str
@@ -76,6 +76,7 @@ class Plan:
     edition: Edition = field(default_factory=find_edition)
     streams: StreamPlan = field(default_factory=StreamPlan)
     variables: tuple[str, ...] = ()
+    stored: StoredResults | None = None
 
 
 Judged = tuple[list[CheckResult], list[Mapping[str, Any]]]
@@ -106,6 +107,7 @@ def _run(plan: Plan, emit: Emit, closing: Closing, judge_all: JudgeAll | None) -
     description, fault = _describe(plan.device)
     emit(RunStarted(plan.spec, description, plan.checks, plan.left_out))
     trial = Trial(plan.device, description, plan.device_class, emit, fault, edition=plan.edition)
+    trial.stored = plan.stored
     if judge_all is None:
         with _simulate_ahead(plan, trial) as announce:
             results, replayed = _judge_all(plan, trial, announce, closing)
@@ -233,8 +235,6 @@ def _skipped_case(kept: KeptCase, outcome: Outcome, reason: str) -> Mapping[str,
 def _describe(device: Device) -> tuple[Description, str | None]:
     try:
         return describe(device), None
-    except InputError:
-        raise
     except DeviceError as fault:
         return UNDESCRIBED, str(fault)
 

@@ -11,6 +11,7 @@ from floatref_conformance.checks.streams.stream_catalogue import STREAM_CHECKS
 from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 
 MOST_BYTES = 1 << 20
+NO_REASON = "no reason given"
 
 
 def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
@@ -38,7 +39,7 @@ def read_waivers(path: Path, known: Mapping[str, object]) -> dict[str, str]:
         if id_ in waivers or id_ not in {**known, **IDS, **STREAM_CHECKS}:
             what = "waived twice" if id_ in waivers else "unknown check"
             raise InputError(f"{path}, line {number}: {id_}: {what}; known: {', '.join(known)}")
-        waivers[id_] = reason.strip() or comment.strip() or "no reason given"
+        waivers[id_] = reason.strip() or comment.strip() or NO_REASON
     return waivers
 
 

@@ -31,6 +31,7 @@ TARGETS = {
     "allan": ("allan", "run", "--settings", "old"),
     "simulate": ("simulate", "case.json", "--out", "old"),
     "export": ("export", "--out", "old"),
+    "submit": ("submit", "--out", "old"),
     "sample": ("sample", "network", "--out", "old"),
     "view": ("view", "road", "-o", "old.html"),
     "plot": ("plot", "road", "-o", "old.png"),

@@ -125,6 +125,8 @@ CHECKS: dict[str, Callable[[Drawn], None] | str] = {
     "floatref vehicle": "shows settings; a slip is that of stretches that two passes agree on",
     "conformance run": "judges a device on roads that are known, its flags among the quantities",
     "conformance replay": "as run",
+    "conformance submit": "as run",
+    "conformance verify": "compares figures with those of an archive",
     "conformance certify": "shows flagged m beside the IRI of every run",
     "conformance table": "judges pipelines on roads that are known, at all points by intention",
     "conformance faults": "as table; what is wrong and not flagged is its subject",

@@ -1,0 +1,1 @@
+"""`conformance submit` and `conformance verify`."""

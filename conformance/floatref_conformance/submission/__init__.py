@@ -1,0 +1,1 @@
+"""A verdict that others can check: one archive with all that it rests on, and what repeats it."""
