@@ -136,6 +136,7 @@ def test_values_that_make_no_scenario_are_refused(fields: Any, message: str) -> 
         Scenario.from_dict(fields)
 
 
+@pytest.mark.slow
 @given(count=st.integers(1, 5), seed=st.integers(0, 99), road_seed=st.integers(-1, 99))
 def test_repeat_passes_meet_one_road_with_errors_of_their_own(count, seed, road_seed) -> None:
     passes = repeat_passes(Scenario(seed=seed, road_seed=road_seed), count)

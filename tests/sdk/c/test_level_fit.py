@@ -53,6 +53,7 @@ def assert_same_numbers(expected, found, numbers):
     assert abs(found.result.grade - expected.grade) <= ANSWER * sigma[-1]
 
 
+@pytest.mark.slow
 @few
 @given(stop=STOPS)
 @example(stop=Stop())

@@ -105,6 +105,7 @@ def test_tyres_take_the_whole_load_transfer(
     assert loads @ y == pytest.approx(-moment * a_y, abs=1e-6)
 
 
+@pytest.mark.slow
 @every_set
 def test_steady_braking_reaches_the_tilt_of_the_springs_in_series(vehicle: Vehicle) -> None:
     """Front sinks and rear rises by its share of the transfer over spring and tyre."""

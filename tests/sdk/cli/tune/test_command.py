@@ -170,6 +170,7 @@ def test_what_is_there_is_kept(made: Path, refused) -> None:
     assert (made / "tuned.json").read_bytes() == before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
@@ -198,6 +199,7 @@ def test_what_cannot_be_used_is_one_line_and_leaves_nothing(
     assert sorted(inputs.rglob("*")) == before
 
 
+@pytest.mark.slow
 def test_progress_is_shown_on_a_terminal_only(
     inputs: Path, monkeypatch: pytest.MonkeyPatch, invoke
 ) -> None:
