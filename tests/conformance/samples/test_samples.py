@@ -46,6 +46,7 @@ def digest(folder):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_seed_draws_one_sample_and_another_seed_another(kind, small, tmp_path):
     for name, seed in (("one", 3), ("same", 3), ("other", 4)):

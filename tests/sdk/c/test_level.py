@@ -50,6 +50,7 @@ def assert_same(found, drive, expected):
     return bins
 
 
+@pytest.mark.slow
 @few
 @given(stop=STOPS)
 @example(stop=Stop(stood_s=20.0, lever_m=0.1))
@@ -63,6 +64,7 @@ def test_a_run_is_levelled_as_by_the_sdk(double, stop):
     assert np.all(drive.speed[left_out] < 0.02)
 
 
+@pytest.mark.slow
 @few
 @given(seed=st.integers(0, 2**32 - 1), share=st.sampled_from([0.02, 0.3]))
 @example(seed=0, share=0.7)

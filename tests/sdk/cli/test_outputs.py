@@ -43,6 +43,7 @@ def test_a_command_says_what_it_says_to_nobody(tmp_path: Path) -> None:
     assert (done.returncode, (tmp_path / "errors").read_text()) == (0, "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ["cp437", "cp850"])
 @pytest.mark.parametrize("words", [("iri", "road"), ("iri", "œ")])
 def test_no_letter_is_too_much_for_the_encoding_of_an_output(

@@ -221,6 +221,7 @@ def _legends(draw: Any, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     return [each for each in found if each is not None]
 
 
+@pytest.mark.slow
 @FEW
 @given(SEEDS, st.lists(SPANS, min_size=1, max_size=2), st.booleans())
 def test_network_is_drawn_from_the_right_road(

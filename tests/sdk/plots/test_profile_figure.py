@@ -87,6 +87,7 @@ def test_metres_that_are_not_valid_do_not_flatten_the_road() -> None:
     assert high - low < 2.0 * (valid.max() - valid.min())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("elevation", [[0.0], [np.nan], [np.nan] * 100, [0.0, 0.1], [1.0] * 500])
 def test_every_profile_is_drawn(elevation: list[float]) -> None:
     track = ProfileTrack.of("$x^$", elevation)

@@ -99,6 +99,7 @@ def test_an_unfinished_recording_is_read_as_far_as_it_goes(tmp_path: Path) -> No
     assert path.read_bytes() == unfinished
 
 
+@pytest.mark.slow
 def test_nothing_of_an_unfinished_recording_is_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -40,6 +40,7 @@ def read(path, text):
     return ViewerText().read(path)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(profile=profiles())
 def test_what_is_written_is_read_again(tmp_path_factory, profile):

@@ -80,6 +80,7 @@ def corner_load(vehicle: Vehicle, along: float) -> float:
     return moment / (2 * vehicle.wheelbase_m)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=8)
 @given(limit=st.floats(40.0, 150.0), height_m=st.floats(0.03, 0.08))
 def test_each_half_cycle_loses_coulombs_share_of_the_amplitude(

@@ -83,6 +83,7 @@ def carried(x, u):
     return np.concatenate((found, x[7:]))
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.9)", "(6.47)")
 @laws
 @given(seed=SEEDS)

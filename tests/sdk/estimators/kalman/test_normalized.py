@@ -47,6 +47,7 @@ def innovations(stage, drawn, cuts=()):
     return stage.list_innovations()["left"]
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.13)", "(C.8)")
 @laws
 @given(seed=SEEDS, rate=st.sampled_from([400, 700]), share=st.floats(0.0, 0.5))

@@ -83,6 +83,7 @@ def test_any_split_gives_the_same_bits(seed, cuts, every):
         np.testing.assert_array_equal(found.flags[UP], whole.flags[UP])
 
 
+@pytest.mark.slow
 def test_blocks_come_out_before_the_run_ends_and_little_is_kept():
     rate = 100
     values, stage = drawn(3, rate, 120, holes=False), Level(FAR_S)

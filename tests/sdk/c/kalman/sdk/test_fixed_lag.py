@@ -109,6 +109,7 @@ def test_without_gnss_what_a_lag_changes_is_flagged(
         assert (flags == 0).mean() > 0.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("stop_s", [1.0, 60.0, 3 * 3600.0])
 def test_a_standstill_takes_no_room_however_long(

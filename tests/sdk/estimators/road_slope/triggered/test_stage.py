@@ -160,6 +160,7 @@ def test_a_run_without_brakes_is_left_bit_for_bit(samples) -> None:
     assert not out[SIGMA].any()
 
 
+@pytest.mark.slow
 @given(known=st.lists(st.booleans(), min_size=20, max_size=20), height=st.floats(-1.0, 1.0))
 def test_one_reading_in_a_bin_is_enough(known, height) -> None:
     """Bins of ten samples at 1 kHz."""
