@@ -24,9 +24,7 @@ BAD = {
     "no function given": {"used": []},
     "floatref_reference.chapter_2.lost does not exist": {"reference": "chapter_2.lost"},
     "floatref.measures.lost.f does not exist": {"used": ["floatref.measures.lost.f"]},
-    "the docstring of floatref.measures.roughness.gaps does not cite it": {
-        "used": "floatref.measures.roughness.gaps"
-    },
+    "the docstring of floatref.measures.gaps does not cite it": {"used": "floatref.measures.gaps"},
     "no test that imports floatref_conformance is marked": {
         "used": "floatref_conformance.proving_ground.vehicles.kinematics"
     },

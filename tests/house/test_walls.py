@@ -16,7 +16,7 @@ BREACHES = {
     "sdk/floatref/values/display/views.py": "floatref.plots",
     "sdk/floatref/kernels/motion.py": "floatref.stages",
     "sdk/floatref/stages/marks.py": "floatref.measures",
-    "sdk/floatref/measures/roughness/gaps.py": "floatref.files",
+    "sdk/floatref/measures/gaps.py": "floatref.files",
     "sdk/floatref/files/samples.py": "floatref.kernels",
     "sdk/floatref/interfaces/adapter.py": "floatref.intake",
     "sdk/floatref/screening/travel.py": "floatref.intake",

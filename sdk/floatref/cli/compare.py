@@ -21,8 +21,8 @@ from floatref.engine.formats import profile_of
 from floatref.errors import InputError
 from floatref.files.sources import name_errors
 from floatref.measures import WAVEBANDS, Agreement, IriSettings, iri
+from floatref.measures.common_grid import CommonPath
 from floatref.measures.locating.shift import Shift, find_shift, move
-from floatref.measures.roughness.common_grid import CommonPath
 from floatref.measures.roughness.path_signals import path_agreement
 from floatref.measures.valid_iri import CommonIri, iri_of_valid
 from floatref.values.arrays import BoolArray, release

@@ -9,6 +9,7 @@ Allan deviation, take a channel or its samples.
 from floatref.measures.allan.at_rest import ChannelNoise, channel_noise
 from floatref.measures.allan.deviation import AllanDeviation, allan_deviation
 from floatref.measures.allan.noise_fit import NoiseCoefficients, NoiseFit, fit_noise
+from floatref.measures.common_grid import on_common_grid
 from floatref.measures.ride.bumps_and_dips import bumps_and_dips, deviation_from_average
 from floatref.measures.ride.deviation_areas import BumpOrDip
 from floatref.measures.ride.hpms_segments import (
@@ -43,7 +44,6 @@ from floatref.measures.ride.waveband_energy import (
     waveband_energy,
 )
 from floatref.measures.roughness.agreement import Agreement, cross_correlation
-from floatref.measures.roughness.common_grid import on_common_grid
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import GOLDEN_CAR, RIDE_NUMBER_CAR, QuarterCar
 from floatref.measures.roughness.roughness_index import Segment, iri, iri_segments, iri_trace

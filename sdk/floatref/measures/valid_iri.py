@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures.roughness.gaps import measured_stretch
+from floatref.measures.gaps import measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.roughness_index import STANDARD, iri, rectified_sums
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floatref.measures.roughness.gaps import check_heights
+from floatref.measures.gaps import check_heights
 from floatref.measures.valid_roughness import roughness_of
 from floatref.plots.figure import (
     COLOURS,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from floatref.measures.roughness.gaps import check_heights
+from floatref.measures.gaps import check_heights
 from floatref.measures.valid_roughness import roughness_of
 from floatref.plots.figure import COLOURS, label_of, legend, new_figure, shade, title
 from floatref.plots.long_lines import Even

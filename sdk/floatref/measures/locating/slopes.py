@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures.roughness.gaps import bridge
+from floatref.measures.gaps import bridge
 from floatref.measures.roughness.pieces_of_road import RUN_IN_WAVES, cut_road, mean_slope
 from floatref.measures.roughness.wavebands import WAVEBANDS, waveband_slope
 from floatref.values.arrays import BoolArray, FloatArray, release

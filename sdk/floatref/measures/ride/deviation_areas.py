@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
+from floatref.measures.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.areas import (
     Area,
     list_areas,
@@ -19,7 +20,6 @@ from floatref.measures.roughness.areas import (
     valid_points,
     valid_throughout,
 )
-from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.scanning import chunks
 

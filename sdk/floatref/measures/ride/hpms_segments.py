@@ -12,8 +12,8 @@ from math import nan
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.measures.gaps import check_elevation
 from floatref.measures.roughness.areas import share, valid_points, valid_throughout
-from floatref.measures.roughness.gaps import check_elevation
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.roughness_index import STANDARD, segment_edges
 from floatref.measures.roughness.roughness_profile import TENTH_OF_A_MILE_M, in_per_mi

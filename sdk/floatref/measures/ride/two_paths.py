@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures.roughness.gaps import check_elevation
+from floatref.measures.gaps import check_elevation
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import RIDE_NUMBER_CAR
 from floatref.measures.roughness.roughness_index import M_PER_KM, STANDARD, iri, iri_trace

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
+from floatref.measures.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.areas import share, valid_points
-from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.wavebands import Waveband, pass_band
 from floatref.values.arrays import FloatArray, release
 from floatref.values.scanning import chunks

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from floatref.measures.common_grid import CommonPath
+from floatref.measures.gaps import bridge
 from floatref.measures.roughness.agreement import Agreement, correlate_pieces
-from floatref.measures.roughness.common_grid import CommonPath
-from floatref.measures.roughness.gaps import bridge
 from floatref.measures.roughness.lagged_sums import SignalPiece
 from floatref.measures.roughness.pieces_of_road import (
     CAR_RUN_IN_M,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref.errors import InputError
-from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
+from floatref.measures.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH, Modes, QuarterCar
 from floatref.values.arrays import FloatArray, release

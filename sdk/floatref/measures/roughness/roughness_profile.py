@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
+from floatref.measures.gaps import check_elevation
 from floatref.measures.roughness.areas import list_areas, share, valid_points, valid_throughout
-from floatref.measures.roughness.gaps import check_elevation
 from floatref.measures.roughness.iri_settings import IriSettings, intervals_in
 from floatref.measures.roughness.roughness_index import STANDARD, iri_trace
 from floatref.values.arrays import BoolArray, FloatArray, release

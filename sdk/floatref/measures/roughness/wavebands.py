@@ -9,8 +9,8 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.kernels.cut_off import high_pass_wavelength_setting
+from floatref.measures.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.agreement import Agreement, cross_correlation
-from floatref.measures.roughness.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.roughness_index import iri_trace
 from floatref.values.arrays import BoolArray, FloatArray, release
 from floatref.values.display.similar_names import suggest

@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.measures import BANDS, agreement, on_common_grid
+from floatref.measures.common_grid import CommonPath
 from floatref.measures.locating import slopes
 from floatref.measures.roughness import pieces_of_road
-from floatref.measures.roughness.common_grid import CommonPath
 from floatref.measures.roughness.path_signals import path_agreement
 from floatref.measures.roughness.pieces_of_road import cut_road
 from floatref.values.profile import Profile, ProfileTrack

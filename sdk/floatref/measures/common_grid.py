@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.measures.roughness.gaps import check_heights
+from floatref.measures.gaps import check_heights
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.scanning import CHUNK, flags_where
