@@ -33,7 +33,7 @@ def agrees(one: float, other: float, scale: float, share: float) -> bool:
 
 def compare_results(stored: CaseResult, again: CaseResult, share: float) -> Iterator[str]:
     """Yield in a line each what differs between a result and its repetition."""
-    for name in ("fault", "skipped", "false_alarms"):
+    for name in ("fault", "skipped", "false_alarms", "hung"):
         before, now = getattr(stored, name), getattr(again, name)
         if before != now:
             yield f"{name.replace('_', ' ')} is {before}, here it is {now}"

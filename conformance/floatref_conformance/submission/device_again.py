@@ -74,7 +74,8 @@ def _run_again(repetition: Repetition, chosen: GivenDevice, every_case: bool) ->
     for case, before in cases:
         for difference in _judge_again(repetition, chosen.device, description, case, before):
             verification.contradict(f"device: {case.check}, {case.name}", difference)
-    verification.repeated.append(f"{len(cases)} cases on the device {chosen.spec}")
+    what = f"{len(cases)} cases on the device {chosen.spec}"
+    (verification.repeated if cases else verification.not_repeated).append(what)
 
 
 def _judge_again(

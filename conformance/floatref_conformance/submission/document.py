@@ -16,6 +16,10 @@ from floatref_conformance.schemas import read_schema
 NAME = "submission.json"
 FORMAT = "conformance-submission/1"
 SCHEMA = "conformance-submission-1"
+MOST_BYTES = 1 << 25
+"""Of a document: thousands of results have a tenth of it."""
+LARGEST_SEED = 10**15
+"""Beyond that not every reader of JSON keeps all digits."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +83,8 @@ class Submission:
         how = f"edition {self.edition}, seed {self.seed}, {self.effort} effort"
         return (
             f"device {device['spec']} ({device['name']} {device['version']})",
-            f"{how}, class {self.device_class}, {checks} checks",
+            f"{how}, class {self.device_class}, {checks} checks"
+            + ("" if self.searching else ", without a search"),
             *(f"waived: {id_}: {why}" for id_, why in self.waivers.items()),
             *(f"statement: {line}" for line in self.statement.splitlines() if line.strip()),
         )
@@ -123,6 +128,8 @@ def read_submission(content: bytes) -> Submission:
 
 def read_json(content: bytes, name: str) -> Any:
     """Return what the member ``name`` holds; InputError if that is not JSON."""
+    if len(content) > MOST_BYTES:
+        raise InputError(f"{name}: larger than any submission's, {MOST_BYTES >> 20} MiB")
     try:
         return parse_document(content.decode("utf-8"))
     except UnicodeDecodeError as error:

@@ -1,7 +1,8 @@
 """Where a verdict comes from: hashes of the device and of the suite, and what they ran on."""
 
+import os
 import platform
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
@@ -34,13 +35,19 @@ def hash_device(device: Device, spec: str, files: Iterable[Path] = ()) -> dict[s
     if isinstance(device, ExecDevice) and device.argv[: len(HOST)] == HOST:
         return _hash_package(device.argv[len(HOST)]) | named
     if isinstance(device, ExecDevice):
-        paths = [Path(word) for word in device.argv]
-        here = [path for path in paths if (device.folder / path).is_file()]
-        return {path.name: sha256_of(device.folder / path) for path in here} | named
+        # Not `Path.is_file`: an argument may be too long to be a name.
+        here = [word for word in device.argv if os.path.isfile(device.folder / word)]
+        return {_name(word, here): sha256_of(device.folder / word) for word in here} | named
     if isinstance(device, RecordedDevice):
         return {PROFILE: _join(_hash_case(case) for case in cases(device.folder))} | named
     packages = (SDK,) if spec.startswith("builtin:") else (SDK, SUITE)
     return {name: hash_package(name) for name in packages} | named
+
+
+def _name(word: str, words: Sequence[str]) -> str:
+    """Return the name of the file ``word``; all of ``word`` where another has the same name."""
+    name = Path(word).name
+    return name if sum(Path(each).name == name for each in words) == 1 else word
 
 
 @cache

@@ -77,7 +77,8 @@ def score_stored(repetition: Repetition, report: Mapping[str, Any]) -> None:
     _note_missing(repetition, report)
     others = sum([_score(repetition, one) for one in stored])
     _note_unscored(repetition)
-    _note_inputs(repetition, others)
+    if stored:
+        _note_inputs(repetition, others)
 
 
 def _score(repetition: Repetition, one: StoredCase) -> int:
@@ -130,7 +131,7 @@ def _note_unscored(repetition: Repetition) -> None:
 def _note_inputs(repetition: Repetition, others: int) -> None:
     """Name recordings with other bits: on a machine like the archive's they have to be equal."""
     if not others:
-        repetition.verification.repeated.append("recordings and truth, bit for bit")
+        repetition.verification.repeated.append("recordings bit for bit, and their truth")
     elif dict(repetition.submission.environment) == describe_environment():
         what = f"{others} recordings have other bits than the archive states"
         repetition.verification.contradict("answers: inputs", what)

@@ -86,6 +86,8 @@ def _read_case(folder: str, files: Mapping[str, bytes]) -> StoredCase:
         inputs: list[dict[str, str]] = [dict(digests) for digests in found["inputs"]]
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"{where}: not a case ({error}); ask for the archive again") from error
+    if folder != f"{FOLDER}/{case.check}-{case.digest}":
+        raise InputError(f"{where}: is another case than its folder says; ask for it again")
     rest = {name: content for name, content in files.items() if name != "case.json"}
     return StoredCase(folder, case, rest, inputs)
 

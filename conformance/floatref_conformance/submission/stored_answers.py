@@ -1,7 +1,7 @@
 """The profiles of a case in an archive, and a device that gives them out."""
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ from floatref_conformance.errors import DeviceError
 
 FOLDER = "answers"
 MOST_BYTES = 1 << 28
-MEMBER = re.compile(r"(answer|truth)-[1-9][0-9]*/[A-Za-z0-9_][A-Za-z0-9._-]*")
+MEMBER = re.compile(r"(answer|truth)-([1-9][0-9]{0,3})/(profile\.json|[A-Za-z0-9_.-]+\.(f64|u8))")
 
 
 def write_passes(passes: Sequence[Pass]) -> dict[str, bytes]:
@@ -45,23 +45,26 @@ def read_passes(files: Mapping[str, bytes], kind: str) -> tuple[Profile, ...]:
 
     Raises InputError for files that make no profile.
     """
-    numbers = sorted(_numbers(files, kind))
+    for name in files:
+        if not MEMBER.fullmatch(name):
+            raise InputError(f"{name}: is no part of a submission; ask for the archive again")
+    numbers = sorted({int(found[2]) for n in files if (found := MEMBER.match(n))[1] == kind})
     with scratch_folder("answers") as folder:
         for name, content in files.items():
-            if not MEMBER.fullmatch(name):
-                raise InputError(f"{name}: is no part of a submission; ask for the archive again")
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_bytes(content)
-        return tuple(_hold(read_profile(folder / f"{kind}-{number}")) for number in numbers)
+        paths = [folder / f"{kind}-{number}" for number in numbers]
+        return tuple(_hold(read_profile(path), path) for path in paths)
 
 
-def _numbers(files: Iterable[str], kind: str) -> set[int]:
-    stems = {name.partition("/")[0].rpartition("-") for name in files}
-    return {int(number) for stem, _, number in stems if stem == kind and number.isdecimal()}
+def _hold(profile: Profile, path: Path) -> Profile:
+    """Return ``profile`` in memory, so that its files can go.
 
-
-def _hold(profile: Profile) -> Profile:
-    """Return ``profile`` in memory, so that its files can go."""
+    InputError for one that needs more than its files in ``path``: several wheel paths in one file.
+    """
+    taken = sum(track.elevation.nbytes for track in profile.tracks)
+    if taken > sum(file.stat().st_size for file in path.iterdir()):
+        raise InputError(f"{path.name}: wheel paths share a file; ask for the archive again")
     tracks = tuple(
         ProfileTrack.of(
             t.name,

@@ -19,7 +19,8 @@ from floatref.files.sources import open_bytes
 
 MOST_MEMBERS = 4096
 MOST_BYTES = 1 << 30
-NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9._-]*(/[A-Za-z0-9_][A-Za-z0-9._-]*)*")
+NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9._-]{0,99}(/[A-Za-z0-9_][A-Za-z0-9._-]{0,99}){0,4}")
+LONGEST_NAME = 504
 DATE = (1980, 1, 1, 0, 0, 0)
 MODE = stat.S_IFREG | 0o644
 UNIX = 3
@@ -51,6 +52,7 @@ def read_archive(path: Path) -> dict[str, bytes]:
     """
     with open_bytes(path) as stream:
         try:
+            _check_ends(path, stream)
             with ZipFile(stream) as archive:
                 members = archive.infolist()
                 _check(path, members, _size(stream))
@@ -69,6 +71,18 @@ def _describe(name: str) -> ZipInfo:
 
 def _size(stream: BufferedReader) -> int:
     return stream.seek(0, 2)
+
+
+def _check_ends(path: Path, stream: BufferedReader) -> None:
+    """Raise InputError for more bytes than an archive has, before any of it is in memory."""
+    size = _size(stream)
+    heads = MOST_MEMBERS * (LOCAL + CENTRAL + 2 * LONGEST_NAME)
+    if size > MOST_BYTES + heads:
+        raise InputError(f"{path}: larger than {MOST_BYTES >> 20} MiB; {ADVICE}")
+    stream.seek(max(size - END, 0))
+    directory = int.from_bytes(stream.read(END)[12:16], "little")
+    if directory > heads:
+        raise InputError(f"{path}: its directory has {directory} bytes; {ADVICE}")
 
 
 def _check(path: Path, members: Sequence[ZipInfo], size: int) -> None:

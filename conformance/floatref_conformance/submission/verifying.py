@@ -32,6 +32,7 @@ from floatref_conformance.submission.retracing import (
 from floatref_conformance.submission.signatures import SIGNATURES, check_signature
 from floatref_conformance.submission.stored_answers import refuse_without
 
+RECORDED = "files:"
 TOLD_APART = ("verdict", "stream_checks")
 """Keys of a report that are compared by rule, since checks of streams have no stored results."""
 
@@ -88,6 +89,7 @@ def _repeat(
     repetition = Repetition(members, submission, results, load(submission.edition), verification)
     _compare_origins(submission, verification)
     _check_waivers(submission, verification)
+    _check_search(submission, verification)
     again = _retrace(repetition, report)
     if again is None:
         # Only what the edition draws is simulated: other numbers could take hours.
@@ -153,6 +155,13 @@ def _check_waivers(submission: Submission, verification: Verification) -> None:
     for id_, reason in submission.waivers.items():
         if reason.strip() in ("", NO_REASON):
             verification.contradict(f"{NAME}: waivers", f"{id_} is waived without a reason")
+
+
+def _check_search(submission: Submission, verification: Verification) -> None:
+    """Contradict a run without a search: recorded profiles alone are judged so."""
+    if not submission.searching and not submission.device["spec"].startswith(RECORDED):
+        what = "is false, but only `files:` is judged without cases that a search draws"
+        verification.contradict(f"{NAME}: searching", what)
 
 
 def _compare_origins(submission: Submission, verification: Verification) -> None:

@@ -53,6 +53,10 @@ class Kernel(Generic[P, R]):
                     made = njit(cache=True, **self._options)(self.py_func)
                 except RuntimeError:
                     made = njit(**self._options)(self.py_func)
+                if made is self.py_func:
+                    # NUMBA_DISABLE_JIT: numba gives the function itself.
+                    self._dispatcher = self._call = made
+                    return made
                 _take_constants_as_values(made)
                 self._dispatcher, self._call = made, trace_loads(made)
             return self._dispatcher
@@ -101,7 +105,10 @@ def chosen(field: str, having: Callable[P, R], lacking: Callable[P, R]) -> Calla
     """
 
     def choice(*_: P.args, **__: P.kwargs) -> R:
-        raise NotImplementedError("only compiled functions can call this")
+        # Without compilation the same is decided at each call.
+        record = cast(Any, _[0])
+        function = having if field in record.dtype.names else lacking
+        return function(*_, **__)
 
     def choose(record: Any, value: Any, array: Any) -> Callable[..., Any]:
         function: Any = having if field in record.fields else lacking

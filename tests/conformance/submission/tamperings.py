@@ -125,6 +125,17 @@ def other_inputs(archive):
     archive.edit(archive.find("/case.json"), change)
 
 
+def beside_profiles(archive):
+    folder = archive.find("/case.json").removesuffix("case.json")
+    archive.members[f"{folder}answer-1/readme.html"] = b"x"
+
+
+def other_folder(archive):
+    folder = archive.find("/case.json").removesuffix("/case.json")
+    for name in [n for n in archive.members if n.startswith(f"{folder}/")]:
+        archive.members[name.replace(folder, f"{folder}0")] = archive.members.pop(name)
+
+
 def other_case(archive):
     name = next(name for name in archive.members if name.startswith("cases/"))
     archive.edit(name, lambda found: found["scenario"].update(seed=7))
@@ -168,6 +179,9 @@ TAMPERINGS = (
     Tampering("a case file", other_case, "not the simplest case"),
     Tampering("a case file removed", remove("cases/"), "not the simplest case"),
     Tampering("a member added", lambda a: a.members.update({"x.txt": b"x"}), "is no part"),
+    Tampering("a file among the profiles", beside_profiles, "is no part"),
+    Tampering("the search left out", submission(searching=False), "that a search draws"),
+    Tampering("a case in another folder", other_folder, "is another case"),
     Tampering("a member removed", remove("report.json"), "report.json: missing"),
     Tampering("a member cut short", cut, "results/toy.json: not JSON"),
     Tampering("a waiver without reason", submission(waivers=BARE), "without a reason", forged=True),

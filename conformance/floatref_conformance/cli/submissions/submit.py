@@ -18,6 +18,7 @@ from floatref_conformance.plugins import load_registry
 from floatref_conformance.render.terminal import TerminalRenderer, make_console
 from floatref_conformance.submission.case_collector import CaseCollector
 from floatref_conformance.submission.checksums import SUMS
+from floatref_conformance.submission.document import LARGEST_SEED
 from floatref_conformance.submission.packing import describe_plan, make_members
 from floatref_conformance.submission.signatures import UNSIGNED, sign
 from floatref_conformance.submission.stored_zip import write_archive
@@ -67,6 +68,8 @@ def submit(
     4: INCOMPLETE, since checks were left out, skipped or waived.
     """
     asked = Asked(**options)
+    if asked.seed > LARGEST_SEED:
+        raise InputError(f"--seed: {asked.seed} is more than {LARGEST_SEED}; give a smaller one")
     check_target(out, overwrite)
     stated = "" if statement is None else _read_statement(statement)
     if key is not None:

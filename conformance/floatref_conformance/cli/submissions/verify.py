@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from floatref.errors import one_line
 from floatref.files.sources import check_file, name_errors
 from floatref_conformance.cli.options import env_option, limit_time, pass_variables
 from floatref_conformance.plugins import load_registry
@@ -96,4 +97,5 @@ def _show(archive: Path, found: Verification) -> str:
     lines += [f"Contradicted ({f.caught_by}): {f.where}: {f.what}" for f in found.findings]
     count = len(found.findings)
     lines.append("confirmed: nothing contradicts" if not count else f"not confirmed: {count} found")
-    return "\n".join(printable(line) for line in lines)
+    # A name in the archive with a line break would make a line that looks like one of ours.
+    return "\n".join(one_line(printable(line)) for line in lines)

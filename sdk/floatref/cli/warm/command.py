@@ -36,7 +36,7 @@ def warm(pipelines: tuple[str, ...], every: bool, jobs: int, as_json: bool) -> N
     known = plugins().pipelines()
     if every and pipelines:
         raise InputError("--all warms every pipeline; give it, or names of pipelines")
-    names = list(known) if every else list(pipelines or (name for name, _ in BEST))
+    names = list(known) if every else list(dict.fromkeys(pipelines or (name for name, _ in BEST)))
     for name in names:
         plugins().pipeline(name)
     with TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
@@ -55,7 +55,7 @@ def _warm_in_process(name: str, folder: Path) -> tuple[str, float]:
     run, begin = folder / f"{name}-run", perf_counter()
     write_recording(made_up_recording(name), run)
     words = ["process", str(run), "--pipeline", name, "--out", str(folder / name), "--json"]
-    command = [sys.executable, "-m", "floatref", *words]
+    command = [sys.executable, "-P", "-m", "floatref", *words]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
