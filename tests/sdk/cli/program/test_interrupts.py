@@ -27,7 +27,13 @@ def command():
             [0 for _ in range(10**6)]
 """
 PROGRAM = """
-import click, sys
+import click, signal, sys
+
+# A test that was started by nohup, or behind a shell's &, hands on signals that are ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+for each in (signal.SIGTERM, signal.SIGHUP):
+    signal.signal(each, signal.SIG_DFL)
+
 from floatref.cli.lazy import LazyGroup
 from floatref.cli.program.starting import start_program
 import work as module
