@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path
 
-from floatref.errors import InputError, TargetExists
 from floatref.files import fingerprint, write_recording
 from floatref.values.profile import Profile
 from floatref_conformance.checks.case import Case
@@ -69,10 +68,8 @@ def export(
     """Write every recording that the seeded cases of ``checks`` need, and return how many.
 
     ``report`` is called with each check's id and the number of recordings so far. Checks whose
-    needs ``description`` does not meet are left out. Raises InputError if ``folder`` exists or
-    cannot be created.
+    needs ``description`` does not meet are left out. ``folder`` is there, and empty.
     """
-    _make(folder)
     bench = ExportBench(folder, description)
     for check in checks:
         if check.needs <= description.meets:
@@ -88,12 +85,3 @@ def _record(check: Check, case: Case, bench: ExportBench) -> None:
         check.judge(case, bench)
     except DeviceError:
         return
-
-
-def _make(folder: Path) -> None:
-    if folder.exists() or folder.is_symlink():
-        raise TargetExists(f"{folder}: exists; choose another name")
-    try:
-        folder.mkdir()
-    except OSError as error:
-        raise InputError(f"{folder}: {error.strerror}; choose another place") from error

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from floatref.errors import InputError
+from floatref.files.atomic import replace_directory
 from floatref_conformance.classes import Effort
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.devices.interface import (
@@ -74,15 +75,17 @@ def export(
     registry = load_registry(edition)
     checks, _ = registry.select(ids)
     description = Description(out.name, "unknown", architecture, tuple(capabilities))
-    count = write(checks, out, description, seed, Effort(effort), _tell)
-    golden.copy_to(out / "golden")
     document = {
         "name": description.name,
         "version": description.version,
         "architecture": architecture,
         "capabilities": list(capabilities),
     }
-    (out / DESCRIPTION).write_text(json.dumps(document, indent=2) + "\n", encoding="utf-8")
+    text = json.dumps(document, indent=2) + "\n"
+    with replace_directory(out, False, DESCRIPTION) as beside:
+        count = write(checks, beside, description, seed, Effort(effort), _tell)
+        golden.copy_to(beside / "golden")
+        (beside / DESCRIPTION).write_text(text, encoding="utf-8")
     words = ["conformance", "run", "--device", f"files:{out}", "--seed", str(seed)]
     words += ["--edition", edition] if edition != EDITION else []
     words += ["--effort", effort, *(word for id_ in ids for word in ("--check", id_))]

@@ -17,7 +17,7 @@ def test_the_command_for_afterwards_quotes_the_folder_and_names_the_checks(
     out = tmp_path / "two words"
     monkeypatch.setattr(export, "load_registry", lambda edition: registry)
     monkeypatch.setattr(golden, "copy_to", lambda folder: None)
-    monkeypatch.setattr(exporting, "export", lambda checks, folder, *_: folder.mkdir() or 3)
+    monkeypatch.setattr(exporting, "export", lambda checks, folder, *_: (folder / "a").mkdir() or 3)
     asked = [word for id_ in ids for word in ("--check", id_)]
     answer = CliRunner().invoke(main, ["export", "--out", str(out), "--seed", "5", *asked])
     assert answer.exit_code == 0, answer.output

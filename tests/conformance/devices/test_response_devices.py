@@ -65,6 +65,8 @@ def test_a_replay_shows_it_no_height_either(toy_check, wheels):
 def test_an_export_holds_no_height_and_leaves_out_what_needs_one(toy_check, tmp_path):
     checks = (toy_check(), toy_check(id="needy", needs=NEEDY, count=5))
     folder = tmp_path / "out"
+    folder.mkdir()
+    (tmp_path / "both").mkdir()
     assert export(checks, folder, SAID, 0, Effort.QUICK, lambda *_: None) == 2
     for path in folder.glob("*/recording.json"):
         assert not list(path.parent.glob("*height*"))
