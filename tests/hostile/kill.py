@@ -90,11 +90,11 @@ class Place:
         return (self.here / "printed").read_text(encoding="utf-8", errors="replace")
 
 
-def measure_works(folder: Path, sound: dict[str, Path]) -> list[Work]:
-    """Return the commands that write something here, each run once to its end."""
+def measure_works(folder: Path, sound: dict[str, Path], program: str = "") -> list[Work]:
+    """Return the commands of ``program``, or all, that write something here, run once each."""
     works = []
     for key, template in WRITTEN.items():
-        if key.startswith(APART):
+        if key.startswith(APART) or not key.startswith(program):
             continue
         place, template = Place(folder), SHORTEST.get(key, template)
         template = template.removeprefix(f"{key.split()[0]} ") if key in SHORTEST else template
@@ -173,11 +173,13 @@ def _same(found: dict[str, int], whole: dict[str, int]) -> bool:
 
 def kill_often(kills: int, seed: int | None, folder: Path) -> list[Killed]:
     """Kill ``kills`` times, the commands by turns."""
+    seed = random.randrange(10**9) if seed is None else seed
     draw = random.Random(seed)
     (folder / "sound").mkdir()
     sound = write_sound(folder / "sound")
     warm_up(warm_words(folder, sound))
     works = measure_works(folder, sound)
+    print(f"seed {seed}, {len(works)} commands: {', '.join(work.key for work in works)}")
     return [kill_once(works[n % len(works)], folder, sound, draw) for n in range(kills)]
 
 
