@@ -86,8 +86,9 @@ class Place:
 
     @property
     def printed(self) -> str:
-        """What the command has printed."""
-        return (self.here / "printed").read_text(encoding="utf-8", errors="replace")
+        """What the command has printed; nothing if it was killed before it could."""
+        path = self.here / "printed"
+        return path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
 
 
 def measure_works(folder: Path, sound: dict[str, Path], program: str = "") -> list[Work]:

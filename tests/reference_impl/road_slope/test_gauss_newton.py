@@ -128,6 +128,7 @@ def test_the_covariance_is_the_inverse_of_the_normal_matrix(drawn: Any, stopping
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_errors_over_many_draws_are_as_the_covariance_says(drawn: Any, stopping: Stopping) -> None:
     """Of each kind of unknown; and S of the truth is higher by one for each unknown."""
     means, rises = [], []
