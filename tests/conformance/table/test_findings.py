@@ -37,6 +37,7 @@ def peak(table: ComparisonTable, pipeline: str, run: str) -> float:
     return table.cell(pipeline, run).mean.peak_m_per_km
 
 
+@pytest.mark.nightly
 def test_the_basic_algorithms_fail_at_every_stop(table: ComparisonTable) -> None:
     for run in STOPS:
         for pipeline in ("temporal-basic", "spatial-basic"):

@@ -72,6 +72,7 @@ def test_the_page_counts_and_names_what_the_judge_fails(build):
     assert "faults" not in failed
 
 
+@pytest.mark.nightly
 def test_what_the_page_names_fails_by_its_figures(build):
     names = rows_of_the_page()
     _, checks = report_of(build("firmware"), *names)

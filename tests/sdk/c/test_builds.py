@@ -129,12 +129,14 @@ def test_cmake_installs_a_package_that_others_find(compiler, tmp_path, shared, s
     assert succeeds([mine / "build" / "mine"]).stdout == "0.1.0 1\n"
 
 
+@pytest.mark.nightly
 @pytest.mark.slow
 def test_the_fuzzer_finds_nothing(compiler):
     command = [sys.executable, ROOT / "tests" / "fuzz" / "fuzz_c_library.py", "--minutes", "0.35"]
     assert "calls that did their work" in succeeds(command).stdout
 
 
+@pytest.mark.nightly
 @pytest.mark.slow
 def test_the_golden_vectors_are_clean_under_the_sanitizers(compiler):
     found = subprocess.run(
