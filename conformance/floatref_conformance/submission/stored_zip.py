@@ -26,6 +26,8 @@ MODE = stat.S_IFREG | 0o644
 UNIX = 3
 LOCAL, CENTRAL, END = 30, 46, 22
 """Bytes of the headers of a member, before it and in the directory, and of the archive's end."""
+END_MARK, LONGEST_END = b"PK\5\6", END + (1 << 16)
+"""How the end begins, and its bytes with the longest comment, where it is looked for."""
 ENCRYPTED = 1
 ADVICE = "ask for the archive again"
 
@@ -79,8 +81,10 @@ def _check_ends(path: Path, stream: BufferedReader) -> None:
     heads = MOST_MEMBERS * (LOCAL + CENTRAL + 2 * LONGEST_NAME)
     if size > MOST_BYTES + heads:
         raise InputError(f"{path}: larger than {MOST_BYTES >> 20} MiB; {ADVICE}")
-    stream.seek(max(size - END, 0))
-    directory = int.from_bytes(stream.read(END)[12:16], "little")
+    stream.seek(max(size - LONGEST_END, 0))
+    rest = stream.read()
+    place = rest.rfind(END_MARK)
+    directory = int.from_bytes(rest[place + 12 : place + 16], "little") if place >= 0 else 0
     if directory > heads:
         raise InputError(f"{path}: its directory has {directory} bytes; {ADVICE}")
 
