@@ -5,6 +5,7 @@ import signal
 import sys
 import tempfile
 import time
+import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -108,6 +109,8 @@ def _become(words: Sequence[str], here: Path, temporary: Path) -> None:
             os.dup2(source, target)
         sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
         sys.stderr = open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+        # In a test a warning is an error; in a command it is a line.
+        warnings.resetwarnings()
         sys.argv = list(words)
         STARTS[words[0]]()
     except SystemExit as end:
