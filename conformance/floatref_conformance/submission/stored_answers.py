@@ -45,16 +45,21 @@ def read_passes(files: Mapping[str, bytes], kind: str) -> tuple[Profile, ...]:
 
     Raises InputError for files that make no profile.
     """
-    for name in files:
-        if not MEMBER.fullmatch(name):
-            raise InputError(f"{name}: is no part of a submission; ask for the archive again")
-    numbers = sorted({int(found[2]) for n in files if (found := MEMBER.match(n))[1] == kind})
+    numbers = sorted({number for name in files for stem, number in [_place(name)] if stem == kind})
     with scratch_folder("answers") as folder:
         for name, content in files.items():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_bytes(content)
         paths = [folder / f"{kind}-{number}" for number in numbers]
         return tuple(_hold(read_profile(path), path) for path in paths)
+
+
+def _place(name: str) -> tuple[str, int]:
+    """Return kind and number of the profile that a file belongs to; InputError for others."""
+    found = MEMBER.fullmatch(name)
+    if found is None:
+        raise InputError(f"{name}: is no part of a submission; ask for the archive again")
+    return found[1], int(found[2])
 
 
 def _hold(profile: Profile, path: Path) -> Profile:
