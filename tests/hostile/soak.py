@@ -6,7 +6,7 @@ A round processes files, converts, measures and draws them, runs a batch on a cl
 on a device in a process of its own, streams a run, and is refused a damaged file. After each round
 the memory of the process, its file handles, threads and children, and what is left in the temporary
 folder are counted. After the first third of the time they may not grow any more: exit code 1 if one
-does. A round is 5 to 10 minutes of recorded road, so that ten minutes of rounds are eight hours.
+does.
 """
 
 import argparse

@@ -105,15 +105,20 @@ def _read(target: Path) -> Profile:
         except Exception as error:
             text = " ".join(str(error).split()).replace(str(copy.parent), "…")
             raise DeviceError(f"delivered an unusable profile: {text}") from error
-        tracks = tuple(
-            ProfileTrack.of(
-                t.name,
-                np.array(t.elevation),
-                np.array(t.valid),
-                None if t.sigma is None else np.array(t.sigma),
-            )
-            for t in profile.tracks
+        return hold_in_memory(profile)
+
+
+def hold_in_memory(profile: Profile) -> Profile:
+    """Return the points of ``profile`` without the files that hold them, which may then go."""
+    tracks = tuple(
+        ProfileTrack.of(
+            t.name,
+            np.array(t.elevation),
+            np.array(t.valid),
+            None if t.sigma is None else np.array(t.sigma),
         )
+        for t in profile.tracks
+    )
     return Profile(profile.interval_m, tracks, profile.start_m)
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from floatref.errors import InputError
@@ -40,7 +41,7 @@ class Repetition:
     registry: Registry
     verification: Verification
 
-    @property
+    @cached_property
     def decisive(self) -> set[tuple[str, str]]:
         """Check and digest of every case whose profiles are stored."""
         return {(s.case.check, s.case.digest) for s in list_stored(self.members)}

@@ -11,9 +11,10 @@ import numpy as np
 from floatref.errors import InputError
 from floatref.files import fingerprint, read_bytes, read_profile, write_profile
 from floatref.files.scratch import scratch_folder
-from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.profile import Profile
 from floatref_conformance.checks.verdict import Pass
 from floatref_conformance.errors import DeviceError
+from floatref_conformance.judge.exercise import hold_in_memory
 
 FOLDER = "answers"
 MOST_BYTES = 1 << 28
@@ -70,16 +71,7 @@ def _hold(profile: Profile, path: Path) -> Profile:
     taken = sum(track.elevation.nbytes for track in profile.tracks)
     if taken > sum(file.stat().st_size for file in path.iterdir()):
         raise InputError(f"{path.name}: wheel paths share a file; ask for the archive again")
-    tracks = tuple(
-        ProfileTrack.of(
-            t.name,
-            np.array(t.elevation),
-            np.array(t.valid),
-            None if t.sigma is None else np.array(t.sigma),
-        )
-        for t in profile.tracks
-    )
-    return Profile(profile.interval_m, tracks, profile.start_m)
+    return hold_in_memory(profile)
 
 
 @dataclass(eq=False)

@@ -12,12 +12,12 @@ import numpy as np
 from floatref.files import read_profile, write_recording
 from floatref.files.scratch import scratch_folder
 from floatref.values.arrays import FloatArray
-from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.profile import Profile
 from floatref_conformance.checks.case import record_for
 from floatref_conformance.devices import builtin
 from floatref_conformance.devices.interface import visible
 from floatref_conformance.errors import SuiteError
-from floatref_conformance.judge.exercise import describe
+from floatref_conformance.judge.exercise import describe, hold_in_memory
 from floatref_conformance.proving_ground.drives.runs import RECORDING_LENGTH_M
 from floatref_conformance.proving_ground.roads.road import Road
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
@@ -160,7 +160,7 @@ class Processing:
         target = given.with_name(f"profile-{pipeline}")
         try:
             self._devices[pipeline].run(given / "recording.json", target)
-            return _in_memory(read_profile(target))
+            return hold_in_memory(read_profile(target))
         except Exception as error:
             text = " ".join(str(error).split())
             raise SuiteError(f"pipeline {pipeline}, {name}: {text}") from error
@@ -194,17 +194,3 @@ def encoder_along_truth(simulation: Simulation) -> FloatArray:
     recorded = np.interp(motion.times_s, encoder.times_s, encoder.values)
     points = truth.interval_m * np.arange(truth.tracks[0].elevation.size)
     return np.asarray(np.interp(points, motion.distance, recorded))
-
-
-def _in_memory(profile: Profile) -> Profile:
-    """Return ``profile`` without its files, which go away."""
-    tracks = tuple(
-        ProfileTrack.of(
-            t.name,
-            np.array(t.elevation),
-            np.array(t.valid),
-            None if t.sigma is None else np.array(t.sigma),
-        )
-        for t in profile.tracks
-    )
-    return Profile(profile.interval_m, tracks, profile.start_m)

@@ -105,10 +105,7 @@ def chosen(field: str, having: Callable[P, R], lacking: Callable[P, R]) -> Calla
     """
 
     def choice(*_: P.args, **__: P.kwargs) -> R:
-        # Without compilation the same is decided at each call.
-        record = cast(Any, _[0])
-        function = having if field in record.dtype.names else lacking
-        return function(*_, **__)
+        raise NotImplementedError("only compiled functions can call this")
 
     def choose(record: Any, value: Any, array: Any) -> Callable[..., Any]:
         function: Any = having if field in record.fields else lacking

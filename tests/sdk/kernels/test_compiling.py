@@ -28,6 +28,11 @@ def test_without_a_folder_for_the_cache_it_still_compiles(monkeypatch):
     assert asked == [True, False]
 
 
+def test_where_numba_is_told_to_compile_nothing_the_function_itself_is_called(monkeypatch):
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", True)
+    assert compiling.compiled(doubled)(1.5) == 3.0
+
+
 @pytest.mark.parametrize("value", [float("nan"), float("inf")])
 def test_nan_and_infinity_survive_compilation(value):
     def passed(x: float) -> bool:

@@ -4,7 +4,6 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
 
 import click
@@ -13,6 +12,7 @@ from floatref.cli.printing import print_json, print_table
 from floatref.engine.choosing import BEST
 from floatref.engine.plugins import plugins
 from floatref.errors import InputError
+from floatref.files.scratch import scratch_folder
 
 
 @click.command("warm")
@@ -39,8 +39,8 @@ def warm(pipelines: tuple[str, ...], every: bool, jobs: int, as_json: bool) -> N
     names = list(known) if every else list(dict.fromkeys(pipelines or (name for name, _ in BEST)))
     for name in names:
         plugins().pipeline(name)
-    with TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
-        taken = list(pool.map(lambda name: _warm_in_process(name, Path(folder)), names))
+    with scratch_folder("warm") as folder, ThreadPoolExecutor(jobs) as pool:
+        taken = list(pool.map(lambda name: _warm_in_process(name, folder), names))
     if as_json:
         print_json({"pipelines": [{"pipeline": n, "wall_s": t} for n, t in taken]})
     else:
