@@ -50,7 +50,7 @@ def test_a_command_takes_the_checks_of_the_edition_else_of_the_last(
     asked, monkeypatch, tmp_path, command, options, edition
 ):
     monkeypatch.setattr(golden, "copy_to", lambda folder: None)
-    monkeypatch.setattr(exporting, "export", lambda checks, folder, *_: folder.mkdir() or 3)
+    monkeypatch.setattr(exporting, "export", lambda *_: 3)
     answer = call(command, *words_of(command, tmp_path), *options)
     assert answer.exit_code in (0, 1, 4), answer.output
     assert set(asked) == {edition}
@@ -137,7 +137,7 @@ def test_the_command_after_an_export_names_an_edition_that_is_not_the_default(
     asked, monkeypatch, tmp_path
 ):
     monkeypatch.setattr(golden, "copy_to", lambda folder: None)
-    monkeypatch.setattr(exporting, "export", lambda checks, folder, *_: folder.mkdir() or 3)
+    monkeypatch.setattr(exporting, "export", lambda *_: 3)
     for edition, named in ((FIRST, True), (SECOND, False)):
         answer = call("export", "--out", tmp_path / edition, "--edition", edition)
         command = shlex.split(answer.stdout.splitlines()[-1].partition("after processing: ")[2])
