@@ -103,6 +103,7 @@ def test_the_roughest_rows_are_kept_in_order(values: list[float]) -> None:
     assert all(values[int(name)] == iri for iri, name, _ in tally.roughest)
 
 
+@pytest.mark.slow
 @patient
 @given(st.lists(st.tuples(st.floats(0.0, 20.0), st.floats(0.0, 1.0)), max_size=20))
 def test_a_row_of_which_half_is_invalid_is_counted_and_not_ranked(
