@@ -46,6 +46,7 @@ def test_a_sound_image_is_started_once_runs_and_is_removed(podman, recording, te
     assert str(stub.folder.parent) not in lines
 
 
+@pytest.mark.slow
 def test_it_has_no_network_no_rights_and_the_variables_that_were_asked_for(podman, monkeypatch):
     monkeypatch.setenv("LICENCE", "secret")
     monkeypatch.setenv("TOKEN", "secret too")
@@ -121,6 +122,7 @@ def _is_alive(pid):
         return False
 
 
+@pytest.mark.slow
 def test_what_a_judge_left_that_was_killed_with_all_is_removed(podman):
     stub = podman(SOUND)
     name = "from floatref.files.owners import own_name; print(own_name('floatref-'))"
