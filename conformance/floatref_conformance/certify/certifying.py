@@ -9,6 +9,7 @@ from floatref.errors import InputError
 from floatref.files.sources import real_path
 from floatref.measures.locating.placing import MAX_OFFSET_M, apply_placement, place
 from floatref.values.profile import Profile
+from floatref_conformance.certify.judging.asked import report_open
 from floatref_conformance.certify.judging.contents import (
     Criterion,
     SectionSheet,
@@ -69,12 +70,16 @@ def certify(
     stationary = tuple(
         _stationary(name, test, sources[test.source], limits) for name, test in _tests(plan)
     )
-    criteria = () if plan.distance is None else judge_readings(plan.distance, limits)
+    readings = () if plan.distance is None else judge_readings(plan.distance, limits)
+    criteria = (*readings, *report_open(limits))
     worksheet = Worksheet(
         plan.profiler,
         device_class,
         limits,
-        verdict_of(_all_criteria(sections, stationary, criteria)),
+        verdict_of(
+            _all_criteria(sections, stationary, criteria),
+            bool(limits.practice.open_requirements()),
+        ),
         sections,
         stationary,
         criteria,

@@ -232,3 +232,22 @@ def test_a_run_of_another_road_is_named(call: Callable[..., Result]) -> None:
     assert sheet["verdict"] == "FAIL"
     runs = {run["name"]: run for run in sheet["sections"][0]["runs"]}
     assert any("not on this road" in line for line in runs["other"]["said"])
+
+
+@pytest.mark.slow
+def test_a_worksheet_says_which_practice_decided(
+    call: Callable[..., Result], tmp_path: Path
+) -> None:
+    sheet = document(call("runs", "--json"))["practice"]
+    assert (sheet["name"], sheet["not_judged"]) == ("aashto-r56-14", [])
+    report = tmp_path / "report"
+    result = call("runs", "--practice", "tex-1001-s", "--report", report, "--json")
+    assert result.exit_code == 4, result.output
+    other = document(result)
+    assert other["practice"]["name"] == "tex-1001-s"
+    assert "iri_spread_m_per_km" in other["practice"]["not_judged"]
+    judged = {one["id"]: one["judged"] for one in other["sections"][0]["criteria"]}
+    assert [judged[id_] for id_ in ("interval", "accuracy", "iri-spread")] == [
+        *("pass", "reported", "reported")
+    ]
+    assert other["practice"]["sha256"] in (report / "worksheet.html").read_text("utf-8")

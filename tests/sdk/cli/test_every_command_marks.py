@@ -128,6 +128,7 @@ CHECKS: dict[str, Callable[[Drawn], None] | str] = {
     "conformance submit": "as run",
     "conformance verify": "compares figures with those of an archive",
     "conformance certify": "shows flagged m beside the IRI of every run",
+    "conformance practices": "lists practices",
     "conformance table": "judges pipelines on roads that are known, at all points by intention",
     "conformance faults": "as table; what is wrong and not flagged is its subject",
     "conformance list": "lists checks and devices",

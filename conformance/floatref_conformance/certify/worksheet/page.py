@@ -92,6 +92,8 @@ class Page:
     sections: tuple[SectionPart, ...]
     tests: tuple[SectionPart, ...]
     heads: tuple[str, ...]
+    title: str
+    practice: Pairs
     limits: Pairs
     clauses: Pairs
     settings: Pairs
@@ -118,6 +120,8 @@ def page_of(worksheet: Worksheet) -> Page:
         ),
         tests=tuple(_test(s, f"test-{n}") for n, s in enumerate(worksheet.stationary, start=1)),
         heads=wording.FIGURES,
+        title=worksheet.limits.practice.title,
+        practice=wording.practice_in_words(worksheet.limits),
         limits=wording.limits_in_words(worksheet.limits),
         clauses=wording.clauses_of(worksheet),
         settings=wording.list_pairs(worksheet.settings),

@@ -52,7 +52,7 @@ def print_worksheet(worksheet: Worksheet, console: Console) -> None:
 
 
 def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
-    """Return limits, settings and versions in one line each, then where criteria come from."""
+    """Return practice, limits, settings and versions, then where criteria come from."""
     rows = (
         ("Limits", wording.limits_in_words(worksheet.limits)),
         ("Settings", wording.list_pairs(worksheet.settings)),
@@ -63,7 +63,9 @@ def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
         for title, pairs in rows
         if pairs
     ]
-    return (*lines, *(f"{id_}: {clause}." for id_, clause in wording.clauses_of(worksheet)))
+    practice = (f"{name}: {value}." for name, value in wording.practice_in_words(worksheet.limits))
+    clauses = (f"{id_}: {clause}." for id_, clause in wording.clauses_of(worksheet))
+    return (*practice, *lines, *clauses)
 
 
 def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console) -> None:
@@ -76,9 +78,10 @@ def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console
         title = f"Runs, wheel path {track} (*: {wording.DISAGREES})"
         _show(title, _runs(section, track, worksheet), console)
     if 1 < len(section.runs) <= MOST_RUNS:
-        limit = worksheet.limits.repeatability
+        limit = worksheet.limits.repeatability or 0.0
+        below = f" (*: below {limit:g})" if limit else ""
         for track, pairs in section.pairs.items():
-            title = f"Pairs of runs, wheel path {track} (*: below {limit:g})"
+            title = f"Pairs of runs, wheel path {track}{below}"
             _show(title, _pairs(pairs, limit), console)
     elif section.runs[MOST_RUNS:]:
         _say(console, f"The pairs of {len(section.runs)} runs are on the page and in the document.")

@@ -15,6 +15,7 @@ from floatref_conformance.certify.judging.contents import (
     StationarySheet,
     Worksheet,
 )
+from floatref_conformance.certify.practice.practice import Practice
 from floatref_conformance.schemas import enforce
 
 FORMAT = "conformance-worksheet/1"
@@ -32,7 +33,8 @@ def as_json(worksheet: Worksheet) -> dict[str, Any]:
         "profiler": worksheet.profiler,
         "class": worksheet.device_class.value,
         "verdict": worksheet.verdict.value,
-        "limits": asdict(worksheet.limits),
+        "practice": _practice(worksheet.limits.practice),
+        "limits": worksheet.limits.figures(),
         "criteria": [_criterion(one) for one in worksheet.criteria],
         "sections": [_section(sheet) for sheet in worksheet.sections],
         "stationary": [_stationary(sheet) for sheet in worksheet.stationary],
@@ -52,6 +54,16 @@ def write_worksheet(worksheet: Worksheet, path: Path) -> None:
     text = json.dumps(as_json(worksheet), indent=1, ensure_ascii=False, allow_nan=False)
     with replace_file(path, overwrite=True) as beside:
         beside.write_text(text + "\n", encoding="utf-8")
+
+
+def _practice(practice: Practice) -> Mapping[str, Any]:
+    return {
+        "name": practice.name,
+        "title": practice.title,
+        "version": practice.version,
+        "sha256": practice.sha256,
+        "not_judged": [one.quantity for one in practice.open_requirements()],
+    }
 
 
 def _criterion(criterion: Criterion) -> Mapping[str, Any]:

@@ -9,6 +9,7 @@ import click
 from floatref.errors import InputError
 from floatref.values.display.similar_names import suggest
 from floatref_conformance.certify.plan.plan_document import Plan, Processing
+from floatref_conformance.certify.practice.practice_document import DEFAULT
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.certify.certify_options import Limit, limits_with, plan_of
 
@@ -36,12 +37,19 @@ CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)
     "--plan", metavar="FILE.toml", type=FILE, help="A file with all this for several sections."
 )
 @click.option(
+    "--practice",
+    metavar="NAME|FILE.json",
+    default=DEFAULT,
+    show_default=True,
+    help="Practice whose limits decide; `conformance practices` lists ours.",
+)
+@click.option(
     "--class",
     "device_class",
     type=click.Choice([c.value for c in DeviceClass]),
     default=DeviceClass.NOMINAL.value,
     show_default=True,
-    help="Class whose limits decide; nominal has those of AASHTO R 56 and R 57.",
+    help="Class whose limits decide; nominal has those of the practice itself.",
 )
 @click.option("--pipeline", metavar="NAME", help="Of `floatref process`, for recordings.")
 @click.option("--settings", metavar="FILE", type=FILE, help="JSON file of the pipeline's settings.")
@@ -75,6 +83,7 @@ def certify(
     quiescent: str | None,
     bounce: str | None,
     plan: Path | None,
+    practice: str,
     device_class: str,
     pipeline: str | None,
     settings: Path | None,
@@ -96,7 +105,7 @@ def certify(
     suite itself is at fault, no worksheet; 4: INCOMPLETE, such as too few runs.
     """
     asked = plan_of(runs, reference, sections, plan, quiescent, bounce)
-    limits = limits_with(DeviceClass(device_class), {**given, "runs": least_runs})
+    limits = limits_with(DeviceClass(device_class), {**given, "runs": least_runs}, practice)
     _check_pipeline(pipeline)
     _check_report(report)
     processing = Processing(pipeline, settings, adapter, channel_map)
