@@ -22,7 +22,7 @@ from floatref_conformance.certify.judging.scales import judge_readings
 from floatref_conformance.certify.judging.second_opinion import confirm_worksheet
 from floatref_conformance.certify.judging.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.judging.stationary import stationary_sheet
-from floatref_conformance.certify.plan.converting import Converted, convert_all
+from floatref_conformance.certify.plan.converting import PROCESSED, Converted, convert_all
 from floatref_conformance.certify.plan.plan_document import (
     Plan,
     Processing,
@@ -35,6 +35,12 @@ from floatref_conformance.editions import EDITION
 
 MEASURED_BY = ("floatref", "numpy", "scipy", "numba")
 """Distributions on whose versions the numbers depend."""
+
+NO_TRUTH = (
+    "is another run, no truth: accuracy is the agreement of two runs, and an error of distance, "
+    "height or IRI may be of either; the estimates treat both alike"
+)
+"""What a worksheet says of a reference that is a recording, or that is said to be a run."""
 
 Progress = Callable[[str, float], None]
 """Called with what is being done and the part of all that is done, from 0 to 1."""
@@ -63,7 +69,7 @@ def certify(
     sections = tuple(
         replace(
             _section(section, references[section.reference], sources, limits, steps),
-            reference_notes=read[section.reference].notes,
+            reference_notes=(*read[section.reference].notes, *_no_truth(read, section, processing)),
         )
         for section in plan.sections
     )
@@ -139,6 +145,14 @@ def _run(name: str, path: Path, source: Converted, truth: Profile) -> Run:
     return Run(name, str(path), (*source.notes, *placement.notes), profile)
 
 
+def _no_truth(
+    read: Mapping[Path, Converted], section: SectionPlan, processing: Processing
+) -> tuple[str, ...]:
+    """Return the line on a reference that is another run, and so is no truth; else nothing."""
+    recorded = any(line.startswith(PROCESSED) for line in read[section.reference].notes)
+    return (NO_TRUTH,) if recorded or processing.reference_is_run else ()
+
+
 def _stationary(
     name: str, plan: StationaryPlan, source: Converted, limits: CertificationLimits
 ) -> StationarySheet:
@@ -199,7 +213,7 @@ def _all_criteria(
 
 def _settings(processing: Processing) -> dict[str, object]:
     """Return how the numbers were made, beside the limits."""
-    given = {name: str(value) for name, value in asdict(processing).items() if value is not None}
+    given = {name: str(value) for name, value in asdict(processing).items() if value}
     return {"filter": "iri", "max_offset_m": MAX_OFFSET_M, **given}
 
 

@@ -52,13 +52,14 @@ def is_header(line: str) -> bool:
     return len(titles) > 1 and DISTANCE.fullmatch(titles[0].strip()) is not None
 
 
-def find_layout(titles: Sequence[str]) -> Layout:
+def find_layout(titles: Sequence[str], unstated: str = "") -> Layout:
     """Return where the elevations are in a file whose columns have ``titles``.
 
-    Raises InputError for a column of distances without values behind it, for values without a unit
-    and for a file without any elevation.
+    ``unstated`` is the unit of values whose title states no unit. Raises InputError for a column of
+    distances without values behind it, for values without a unit and for a file without any
+    elevation.
     """
-    pairs = list_pairs(titles)
+    pairs = [pair._replace(unit=pair.unit or unstated) for pair in list_pairs(titles)]
     for pair in pairs:
         if not pair.unit:
             raise InputError(

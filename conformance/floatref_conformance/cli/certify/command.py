@@ -24,6 +24,7 @@ CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)
 @click.command()
 @click.argument("runs", metavar="[RUN]...", nargs=-1)
 @click.option("--reference", metavar="PROFILE", help="Reference profile, of any format.")
+@click.option("--reference-is-run", is_flag=True, help="The reference is another run, no truth.")
 @click.option(
     "--section",
     "sections",
@@ -79,6 +80,7 @@ def certify(
     /,
     runs: tuple[str, ...],
     reference: str | None,
+    reference_is_run: bool,
     sections: tuple[str, ...],
     quiescent: str | None,
     bounce: str | None,
@@ -108,7 +110,7 @@ def certify(
     limits = limits_with(DeviceClass(device_class), {**given, "runs": least_runs}, practice)
     _check_pipeline(pipeline)
     _check_report(report)
-    processing = Processing(pipeline, settings, adapter, channel_map)
+    processing = Processing(pipeline, settings, adapter, channel_map, reference_is_run)
     worksheet = _certify_with_progress(asked, processing, limits, DeviceClass(device_class))
     if report is not None:
         _write(worksheet, report)
