@@ -30,6 +30,7 @@ from floatref_conformance.certify.plan.plan_document import (
     StationaryPlan,
 )
 from floatref_conformance.certify.plan.run_paths import names_of
+from floatref_conformance.certify.plan.trails import place_trail
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.editions import EDITION
 
@@ -63,12 +64,12 @@ def certify(
         _check_apart(section)
     steps = _Steps(plan, progress)
     read = convert_all(_references(plan), processing, steps.count_read)
-    references = dict(_true(read))
+    _check_true(read)
     sources = convert_all(_sources(plan), processing, steps.count_read)
     _check_usable(plan, sources)
     sections = tuple(
         replace(
-            _section(section, references[section.reference], sources, limits, steps),
+            _section(section, read[section.reference], sources, limits, steps),
             reference_notes=(*read[section.reference].notes, *_no_truth(read, section, processing)),
         )
         for section in plan.sections
@@ -121,17 +122,18 @@ class _Steps:
 
 def _section(
     plan: SectionPlan,
-    reference: Profile,
+    reference: Converted,
     sources: Mapping[Path, Converted],
     limits: CertificationLimits,
     steps: _Steps,
 ) -> SectionSheet:
     """Return the sheet of a section, its runs placed on the reference's axis."""
-    truth, runs = truth_of(plan, reference), []
+    assert reference.profile is not None
+    truth, runs = truth_of(plan, reference.profile), []
     for name, path in zip(names_of(plan.runs), plan.runs, strict=True):
         runs.append(_run(name, path, sources[path], truth))
         steps.count_placed(name)
-    return section_sheet(plan, truth, runs, limits)
+    return section_sheet(plan, truth, runs, limits, reference.trail)
 
 
 def _run(name: str, path: Path, source: Converted, truth: Profile) -> Run:
@@ -142,7 +144,9 @@ def _run(name: str, path: Path, source: Converted, truth: Profile) -> Run:
         profile = apply_placement(source.profile, placement)
     except InputError as error:
         return Run(name, str(path), source.notes, None, f"{path}: {error}")
-    return Run(name, str(path), (*source.notes, *placement.notes), profile)
+    notes, trail = (*source.notes, *placement.notes), source.trail
+    placed = trail and place_trail(trail, source.profile, placement)
+    return Run(name, str(path), notes, profile, trail=placed)
 
 
 def _no_truth(
@@ -166,12 +170,11 @@ def _check_apart(section: SectionPlan) -> None:
             raise InputError(f"{run}: is the reference itself; leave it out of the runs")
 
 
-def _true(sources: Mapping[Path, Converted]) -> Iterator[tuple[Path, Profile]]:
-    """Yield the references; InputError for one that cannot be used."""
-    for path, source in sources.items():
+def _check_true(references: Mapping[Path, Converted]) -> None:
+    """Raise InputError for a reference that cannot be used."""
+    for source in references.values():
         if source.profile is None:
             raise InputError(f"reference {source.error}")
-        yield path, source.profile
 
 
 def _check_usable(plan: Plan, sources: Mapping[Path, Converted]) -> None:

@@ -19,6 +19,7 @@ from floatref.files.sources import open_bytes
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.plan.commands import Commands
 from floatref_conformance.certify.plan.plan_document import Processing
+from floatref_conformance.certify.plan.trails import Trail, read_trail
 
 GUESSED = "guessed_units"
 """Key of the provenance under which `floatref convert` says which unit it guessed."""
@@ -38,11 +39,13 @@ class Converted:
         profile: None if it could not be read.
         notes: how it was made, and warnings.
         error: in one line, with the path, why there is no profile; empty otherwise.
+        trail: where it was; None without positions.
     """
 
     profile: Profile | None
     notes: tuple[str, ...] = ()
     error: str = ""
+    trail: Trail | None = None
 
 
 def convert_all(
@@ -101,7 +104,8 @@ def _process(
         return Converted(None, error=f"{path}: {both if len(bare) > 1 else bare[0]}")
     report = json.loads(answer.output)
     notes = (f"{PROCESSED} {report['pipeline']}", *report["warnings"])
-    return Converted(_load_apart(read_profile(out), path), notes)
+    profile = _load_apart(read_profile(out), path)
+    return Converted(profile, notes, trail=read_trail(path, profile))
 
 
 def _options(processing: Processing) -> list[str]:

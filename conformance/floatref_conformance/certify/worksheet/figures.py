@@ -12,6 +12,7 @@ from floatref_conformance.certify.judging.contents import (
 )
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.worksheet import pictures, wording
+from floatref_conformance.certify.worksheet.lateral_parts import lateral_picture
 from floatref_conformance.certify.worksheet.pictures import lag_picture
 from floatref_conformance.certify.worksheet.wording import correlation
 from floatref_conformance.render.failures import Markup, Picture
@@ -124,6 +125,9 @@ def _of_section(sheet: SectionSheet, limits: CertificationLimits, anchor: str) -
             least = limits.repeatability or 0.0
             drawn = heat_map(f"{name}-pairs", title, sheet.pairs[track], least)
             yield _picture(drawn, f"{title}, by their numbers.")
+    drawn = lateral_picture(sheet, f"{anchor}-lateral")
+    if drawn:
+        yield _picture(drawn, "Agreement of each pair against the distance between their lines.")
     yield from _lags(sheet, limits, anchor)
 
 

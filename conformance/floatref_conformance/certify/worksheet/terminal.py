@@ -14,7 +14,7 @@ from floatref_conformance.certify.judging.contents import (
     StationarySheet,
     Worksheet,
 )
-from floatref_conformance.certify.worksheet import wording
+from floatref_conformance.certify.worksheet import lateral_parts, wording
 from floatref_conformance.render.terminal import PLAIN_WIDTH
 from floatref_conformance.render.text import printable
 
@@ -85,6 +85,8 @@ def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console
             _show(title, _pairs(pairs, limit), console)
     elif section.runs[MOST_RUNS:]:
         _say(console, f"The pairs of {len(section.runs)} runs are on the page and in the document.")
+    if section.lateral:
+        _show("Agreement by lateral separation", _lateral(section), console)
     for index, run in enumerate(section.runs, start=1):
         _print_run(index, run, console)
 
@@ -150,6 +152,15 @@ def _pairs(pairs: FloatArray, limit: float) -> Table:
     for row in range(len(pairs) - 1):
         cells = [""] * row + [_pair(value, limit) for value in pairs[row, row + 1 :]]
         table.add_row(f"{row + 1:>2}", *cells)
+    return table
+
+
+def _lateral(section: SectionSheet) -> Table:
+    table = _empty(NARROW)
+    for head in lateral_parts.HEADS:
+        table.add_column(head, overflow="fold")
+    for row in lateral_parts.short_rows(section):
+        table.add_row(*map(_text, row))
     return table
 
 

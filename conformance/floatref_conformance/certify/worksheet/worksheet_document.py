@@ -82,6 +82,7 @@ def _section(sheet: SectionSheet) -> Mapping[str, Any]:
         "criteria": [_criterion(one) for one in sheet.criteria],
         "runs": [_run(run) for run in sheet.runs],
         "pairs": dict(sheet.pairs),
+        "lateral": [asdict(one) for one in sheet.lateral],
     }
 
 
