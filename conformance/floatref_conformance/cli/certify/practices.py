@@ -90,8 +90,8 @@ def _print_practice(practice: Practice) -> None:
             one.quantity, one.device_class or "all", _limit(one), basis, one.clause, number
         )
     _show(table)
-    for number, source in enumerate(sources, 1):
-        click.echo(f"Source {number}: {source}")
+    for index, source in enumerate(sources, 1):
+        click.echo(f"Source {index}: {source}")
     for note in practice.notes:
         click.echo(note)
 

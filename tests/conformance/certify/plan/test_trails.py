@@ -44,7 +44,7 @@ def test_a_place_keeps_to_its_point(reversed_, offset_m, factor, at) -> None:
 
 @pytest.mark.slow
 def test_the_trail_of_a_recording_is_where_it_drove(tmp_path: Path) -> None:
-    drive = Scenario(length_m=120.0, rate_hz=500.0, imu=False, response=False)
+    drive = Scenario(length_m=120.0, rate_hz=1000.0, imu=False, response=False)
     recording = simulate(drive).recording
     write_recording(recording, tmp_path / "run")
     profile = Profile(0.5, (ProfileTrack.of("left", np.zeros(161)),), 20.0)
