@@ -17,7 +17,7 @@ from floatref.cli.printing import (
     print_settings,
     print_table,
 )
-from floatref.engine.guessed_units import read_guessing
+from floatref.cli.recordings.guessed_units import read_guessing
 from floatref.files.sources import name_errors
 from floatref.measures import WAVEBANDS, Agreement, IriSettings, iri
 from floatref.measures.common_grid import CommonPath

@@ -8,8 +8,8 @@ import click
 
 from floatref.cli.format_option import FormatName
 from floatref.cli.printing import number, print_table
+from floatref.cli.recordings.guessed_units import read_guessing
 from floatref.engine.formats import format_of, profile_of, write_as
-from floatref.engine.guessed_units import read_guessing
 from floatref.engine.plugins import plugins
 from floatref.engine.recordings.readers import find_readers
 from floatref.engine.recordings.recording_formats import (

@@ -17,7 +17,7 @@ from floatref_conformance.certify.judging.reasons import (
     of_track,
     report_value,
 )
-from floatref_conformance.certify.practice.practice import JUDGED, UNITS, Requirement
+from floatref_conformance.certify.practice.requirements import JUDGED, UNITS, Requirement
 
 SPREAD = "iri_spread_m_per_km"
 TITLES = {

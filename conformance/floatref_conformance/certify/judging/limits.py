@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field, fields
 
-from floatref_conformance.certify.practice.practice import Practice
 from floatref_conformance.certify.practice.practice_document import DEFAULT, read_own
+from floatref_conformance.certify.practice.requirements import Practice
 from floatref_conformance.classes import DeviceClass
 
 _OURS = read_own(DEFAULT).of_class(DeviceClass.NOMINAL.value)

@@ -11,7 +11,7 @@ from floatref.files.document import parse_document
 from floatref.files.schema import enforce_schema
 from floatref.files.sources import name_errors, read_bytes
 from floatref.values.display.similar_names import suggest
-from floatref_conformance.certify.practice.practice import (
+from floatref_conformance.certify.practice.requirements import (
     UNITS,
     Practice,
     Requirement,

@@ -15,7 +15,7 @@ from floatref_conformance.certify.judging.contents import (
     StationarySheet,
     Worksheet,
 )
-from floatref_conformance.certify.practice.practice import Practice
+from floatref_conformance.certify.practice.requirements import Practice
 from floatref_conformance.schemas import enforce
 
 FORMAT = "conformance-worksheet/1"

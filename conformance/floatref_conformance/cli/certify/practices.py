@@ -5,8 +5,8 @@ from typing import Any
 
 import click
 
-from floatref_conformance.certify.practice.practice import UNITS, Practice, Requirement
 from floatref_conformance.certify.practice.practice_document import find_practice, list_names
+from floatref_conformance.certify.practice.requirements import UNITS, Practice, Requirement
 
 
 @click.command()

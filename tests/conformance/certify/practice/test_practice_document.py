@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.files.schema import enforce_schema
 from floatref_conformance.certify.judging.limits import CertificationLimits, limits_of
-from floatref_conformance.certify.practice.practice import UNITS
 from floatref_conformance.certify.practice.practice_document import (
     DEFAULT,
     find_practice,
     list_names,
     read_own,
 )
+from floatref_conformance.certify.practice.requirements import UNITS
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.schemas import read_schema
 

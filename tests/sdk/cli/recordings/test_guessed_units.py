@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.engine.guessed_units import GUESSED, read_guessing
+from floatref.cli.recordings.guessed_units import GUESSED, read_guessing
 from floatref.errors import InputError
 from floatref.measures import iri
 
