@@ -175,3 +175,13 @@ def test_heights_without_a_unit_are_given_as_they_are_written(tmp_path):
     np.testing.assert_array_equal(profile.track("left").elevation, [1.0, np.nan, 3.0])
     path.write_text(FEET, "utf-8")
     assert ViewerText().read_unstated(path) is None
+
+
+def test_of_a_long_name_the_end_is_kept_which_a_directory_can_hold(tmp_path):
+    name = f"{'Rt 76 EB run 1 ' * 5}_ODS1 (Profile 1)"
+    (tmp_path / "run.txt").write_text(f"{name} - Distance (m)\t{name}_Full (m)\n0\t1\n1\t2\n")
+    profile = profile_of(tmp_path / "run.txt")
+    assert name.endswith(profile.tracks[0].name)
+    assert profile.tracks[0].name.endswith("_ODS1 (Profile 1)")
+    format_of(tmp_path / "out").write(profile, tmp_path / "out")
+    assert profile_of(tmp_path / "out").tracks[0].name == profile.tracks[0].name
