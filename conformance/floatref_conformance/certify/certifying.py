@@ -9,6 +9,7 @@ from floatref.errors import InputError
 from floatref.files.sources import real_path
 from floatref.measures.locating.placing import MAX_OFFSET_M, apply_placement, place
 from floatref.values.profile import Profile
+from floatref_conformance.certify.judging.asked import report_open
 from floatref_conformance.certify.judging.contents import (
     Criterion,
     SectionSheet,
@@ -21,7 +22,7 @@ from floatref_conformance.certify.judging.scales import judge_readings
 from floatref_conformance.certify.judging.second_opinion import confirm_worksheet
 from floatref_conformance.certify.judging.sections import Run, section_sheet, truth_of
 from floatref_conformance.certify.judging.stationary import stationary_sheet
-from floatref_conformance.certify.plan.converting import Converted, convert_all
+from floatref_conformance.certify.plan.converting import PROCESSED, Converted, convert_all
 from floatref_conformance.certify.plan.plan_document import (
     Plan,
     Processing,
@@ -29,11 +30,18 @@ from floatref_conformance.certify.plan.plan_document import (
     StationaryPlan,
 )
 from floatref_conformance.certify.plan.run_paths import names_of
+from floatref_conformance.certify.plan.trails import place_trail
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.editions import EDITION
 
 MEASURED_BY = ("floatref", "numpy", "scipy", "numba")
 """Distributions on whose versions the numbers depend."""
+
+NO_TRUTH = (
+    "is another run, no truth: accuracy is the agreement of two runs, and an error of distance, "
+    "height or IRI may be of either; the estimates treat both alike"
+)
+"""What a worksheet says of a reference that is a recording, or that is said to be a run."""
 
 Progress = Callable[[str, float], None]
 """Called with what is being done and the part of all that is done, from 0 to 1."""
@@ -56,25 +64,29 @@ def certify(
         _check_apart(section)
     steps = _Steps(plan, progress)
     read = convert_all(_references(plan), processing, steps.count_read)
-    references = dict(_true(read))
+    _check_true(read)
     sources = convert_all(_sources(plan), processing, steps.count_read)
     _check_usable(plan, sources)
     sections = tuple(
         replace(
-            _section(section, references[section.reference], sources, limits, steps),
-            reference_notes=read[section.reference].notes,
+            _section(section, read[section.reference], sources, limits, steps),
+            reference_notes=(*read[section.reference].notes, *_no_truth(read, section, processing)),
         )
         for section in plan.sections
     )
     stationary = tuple(
         _stationary(name, test, sources[test.source], limits) for name, test in _tests(plan)
     )
-    criteria = () if plan.distance is None else judge_readings(plan.distance, limits)
+    readings = () if plan.distance is None else judge_readings(plan.distance, limits)
+    criteria = (*readings, *report_open(limits))
     worksheet = Worksheet(
         plan.profiler,
         device_class,
         limits,
-        verdict_of(_all_criteria(sections, stationary, criteria)),
+        verdict_of(
+            _all_criteria(sections, stationary, criteria),
+            bool(limits.practice.open_requirements()),
+        ),
         sections,
         stationary,
         criteria,
@@ -110,17 +122,18 @@ class _Steps:
 
 def _section(
     plan: SectionPlan,
-    reference: Profile,
+    reference: Converted,
     sources: Mapping[Path, Converted],
     limits: CertificationLimits,
     steps: _Steps,
 ) -> SectionSheet:
     """Return the sheet of a section, its runs placed on the reference's axis."""
-    truth, runs = truth_of(plan, reference), []
+    assert reference.profile is not None
+    truth, runs = truth_of(plan, reference.profile), []
     for name, path in zip(names_of(plan.runs), plan.runs, strict=True):
         runs.append(_run(name, path, sources[path], truth))
         steps.count_placed(name)
-    return section_sheet(plan, truth, runs, limits)
+    return section_sheet(plan, truth, runs, limits, reference.trail)
 
 
 def _run(name: str, path: Path, source: Converted, truth: Profile) -> Run:
@@ -131,7 +144,17 @@ def _run(name: str, path: Path, source: Converted, truth: Profile) -> Run:
         profile = apply_placement(source.profile, placement)
     except InputError as error:
         return Run(name, str(path), source.notes, None, f"{path}: {error}")
-    return Run(name, str(path), (*source.notes, *placement.notes), profile)
+    notes, trail = (*source.notes, *placement.notes), source.trail
+    placed = trail and place_trail(trail, source.profile, placement)
+    return Run(name, str(path), notes, profile, trail=placed)
+
+
+def _no_truth(
+    read: Mapping[Path, Converted], section: SectionPlan, processing: Processing
+) -> tuple[str, ...]:
+    """Return the line on a reference that is another run, and so is no truth; else nothing."""
+    recorded = any(line.startswith(PROCESSED) for line in read[section.reference].notes)
+    return (NO_TRUTH,) if recorded or processing.reference_is_run else ()
 
 
 def _stationary(
@@ -147,12 +170,11 @@ def _check_apart(section: SectionPlan) -> None:
             raise InputError(f"{run}: is the reference itself; leave it out of the runs")
 
 
-def _true(sources: Mapping[Path, Converted]) -> Iterator[tuple[Path, Profile]]:
-    """Yield the references; InputError for one that cannot be used."""
-    for path, source in sources.items():
+def _check_true(references: Mapping[Path, Converted]) -> None:
+    """Raise InputError for a reference that cannot be used."""
+    for source in references.values():
         if source.profile is None:
             raise InputError(f"reference {source.error}")
-        yield path, source.profile
 
 
 def _check_usable(plan: Plan, sources: Mapping[Path, Converted]) -> None:
@@ -194,7 +216,7 @@ def _all_criteria(
 
 def _settings(processing: Processing) -> dict[str, object]:
     """Return how the numbers were made, beside the limits."""
-    given = {name: str(value) for name, value in asdict(processing).items() if value is not None}
+    given = {name: str(value) for name, value in asdict(processing).items() if value}
     return {"filter": "iri", "max_offset_m": MAX_OFFSET_M, **given}
 
 

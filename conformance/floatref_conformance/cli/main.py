@@ -28,6 +28,10 @@ COMMANDS = {
         "floatref_conformance.cli.certify.command:certify",
         "judge a profiler from recorded runs",
     ),
+    "practices": (
+        "floatref_conformance.cli.certify.practices:practices",
+        "list the practices of certification",
+    ),
     "table": ("floatref_conformance.cli.table:table", "put the published tables beside ours"),
     "faults": ("floatref_conformance.cli.faults.command:faults", "put faults into drives"),
 }

@@ -17,11 +17,11 @@ from floatref.cli.printing import (
     print_settings,
     print_table,
 )
-from floatref.engine.formats import profile_of
-from floatref.errors import InputError
+from floatref.cli.recordings.guessed_units import read_guessing
 from floatref.files.sources import name_errors
 from floatref.measures import WAVEBANDS, Agreement, IriSettings, iri
 from floatref.measures.common_grid import CommonPath
+from floatref.measures.locating.matching import match_names
 from floatref.measures.locating.shift import Shift, find_shift, move
 from floatref.measures.roughness.path_signals import path_agreement
 from floatref.measures.valid_iri import CommonIri, iri_of_valid
@@ -56,18 +56,21 @@ def compare(
 ) -> None:
     """Print how well PROFILE agrees with REFERENCE, by cross correlation and by IRI.
 
-    Wheel paths are matched by name; PROFILE may have others. If it lies more than 1 m from its
+    Wheel paths are matched by name, or by their elevations if not one name is the same; PROFILE
+    may have others. If it lies more than 1 m from its
     place on the road of REFERENCE, it is moved there; where that place is not sure, a line says so.
     It is interpolated linearly at the points of REFERENCE where both overlap. An offset or a
     placement above zero means that PROFILE lies farther along. Both IRIs of valid points are over
     the stretches in which both profiles are valid.
     """
-    expected, found = profile_of(reference), profile_of(profile)
+    (expected, said), (found, more) = read_guessing(reference), read_guessing(profile)
+    notes = [f"{path}: {line}" for path, line in ((reference, said), (profile, more)) if line]
     with name_errors(f"{reference} and {profile}"):
-        _check_tracks(expected, found)
+        found, renamed = match_names(expected, found)
+        notes += [f"{profile}: {line}" for line in renamed]
         shift = None if no_placement else find_shift(expected, found)
         found = move(found, shift) if shift else found
-        report = compare_report(expected, found, max_offset_m, shift)
+        report = compare_report(expected, found, max_offset_m, shift) | {"notes": notes}
     if plot is not None:
         from floatref.plots import draw_comparison
 
@@ -107,17 +110,6 @@ def compare_report(
         "tracks": tracks,
         "not_compared": extra,
     }
-
-
-def _check_tracks(reference: Profile, profile: Profile) -> None:
-    """Raise InputError unless ``profile`` has every wheel path of ``reference``."""
-    names = [track.name for track in profile.tracks]
-    missing = [track.name for track in reference.tracks if track.name not in names]
-    if missing:
-        raise InputError(
-            f"track {', '.join(missing)} of the reference is missing in the profile, which holds "
-            f"{', '.join(names)}; give both the same names"
-        )
 
 
 @dataclass(frozen=True)
@@ -213,6 +205,8 @@ def _print_tables(report: dict[str, Any]) -> None:
     some = any(track["counted_share"] < 1.0 for track in tracks)
     explain_mark(some, "all figures but those of valid points have the others too")
     _print_placement(report)
+    for note in report["notes"]:
+        click.echo(f"{note}\n")
     if report["not_compared"]:
         click.echo(f"Not in the reference: {', '.join(report['not_compared'])}\n")
     print_settings(report["settings"])

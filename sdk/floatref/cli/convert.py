@@ -8,6 +8,7 @@ import click
 
 from floatref.cli.format_option import FormatName
 from floatref.cli.printing import number, print_table
+from floatref.cli.recordings.guessed_units import read_guessing
 from floatref.engine.formats import format_of, profile_of, write_as
 from floatref.engine.plugins import plugins
 from floatref.engine.recordings.readers import find_readers
@@ -51,6 +52,9 @@ if TYPE_CHECKING:
     metavar="FILE.toml",
     help="Channel map of a recording that is a native file.",
 )
+@click.option(
+    "--guess-units", is_flag=True, help="Guess the unit of heights where a profile states no unit."
+)
 @click.option("--overwrite", is_flag=True, help="Replace an existing target.")
 def convert(
     source: Path,
@@ -58,6 +62,7 @@ def convert(
     form: str | None,
     adapter: str | None,
     channel_map: Path | None,
+    guess_units: bool,
     overwrite: bool,
 ) -> None:
     """Write SOURCE, a profile or a recording, in another format.
@@ -69,7 +74,7 @@ def convert(
     given = adapter is not None or channel_map is not None
     written = _recording_format(source, out, form, given)
     if written is None:
-        _convert_profile(source, out, form, overwrite)
+        _convert_profile(source, out, form, overwrite, guess_units)
         return
     check_target(out, overwrite)
     _check_apart(source, out)
@@ -167,13 +172,17 @@ def _why_no_profile(source: Path) -> str:
     return ""
 
 
-def _convert_profile(source: Path, out: Path, form: str | None, overwrite: bool) -> None:
+def _convert_profile(
+    source: Path, out: Path, form: str | None, overwrite: bool, guess_units: bool
+) -> None:
     written = format_of(out, form)
     check_target(out, overwrite)
     _check_apart(source, out)
-    read = profile_of(source)
+    read, note = read_guessing(source) if guess_units else (profile_of(source), "")
     with name_errors(source):
         write_as(written, read, out, overwrite)
+    if note:
+        click.echo(f"Warning: {source}: {note}", err=True)
     _print_tracks(read, out)
 
 

@@ -28,6 +28,7 @@ OPTIONS = {
     "--max-quiescent": ("quiescent_m_per_km", "0.1", 0.1),
     "--max-bounce": ("bounce_m_per_km", "0.2", 0.2),
 }
+RUN = "--reference-is-run"
 LOOSE = ("--runs", 2, "--max-distance-error", "none", "--max-height-error", "none")
 
 
@@ -236,3 +237,20 @@ def test_a_run_of_another_road_is_named(call: Callable[..., Result]) -> None:
     assert sheet["verdict"] == "FAIL"
     runs = {run["name"]: run for run in sheet["sections"][0]["runs"]}
     assert any("not on this road" in line for line in runs["other"]["said"])
+
+
+@pytest.mark.slow
+def test_practice_and_a_reference_that_is_a_run_are_said(
+    call: Callable[..., Result], tmp_path: Path
+) -> None:
+    plain = document(call("runs", "--json"))
+    assert plain["practice"]["name"] == "aashto-r56-14"
+    result = call("runs", "--practice", "tex-1001-s", RUN, "--report", tmp_path / "r", "--json")
+    assert result.exit_code == 4, result.output
+    other = document(result)
+    assert "iri_spread_m_per_km" in other["practice"]["not_judged"]
+    judged = {one["id"]: one["judged"] for one in other["sections"][0]["criteria"]}
+    assert (judged["interval"], judged["accuracy"]) == ("pass", "reported")
+    assert other["practice"]["sha256"] in (tmp_path / "r" / "worksheet.html").read_text("utf-8")
+    said = [sheet["sections"][0]["reference_said"] for sheet in (plain, other)]
+    assert (said[0], "another run, no truth" in said[1][0]) == ([], True)

@@ -14,6 +14,8 @@ DISTANCE = re.compile(
 )
 """Title of a column of distances, as `LElev - Distance (ft)`."""
 UNIT = re.compile(r"(?P<title>.*?) *\((?P<unit>[^()]*)\)", re.DOTALL)
+LONGEST_NAME = 48
+"""Characters of the longest name of a wheel path; viewers put the name of a file before it."""
 SECTION = "_Full"
 """End of the title of a column of values: the section of the profile, here the whole of it."""
 VALID, NO_UNIT = " valid", "-"
@@ -52,13 +54,14 @@ def is_header(line: str) -> bool:
     return len(titles) > 1 and DISTANCE.fullmatch(titles[0].strip()) is not None
 
 
-def find_layout(titles: Sequence[str]) -> Layout:
+def find_layout(titles: Sequence[str], unstated: str = "") -> Layout:
     """Return where the elevations are in a file whose columns have ``titles``.
 
-    Raises InputError for a column of distances without values behind it, for values without a unit
-    and for a file without any elevation.
+    ``unstated`` is the unit of values whose title states no unit. Raises InputError for a column of
+    distances without values behind it, for values without a unit and for a file without any
+    elevation.
     """
-    pairs = list_pairs(titles)
+    pairs = [pair._replace(unit=pair.unit or unstated) for pair in list_pairs(titles)]
     for pair in pairs:
         if not pair.unit:
             raise InputError(
@@ -70,7 +73,7 @@ def find_layout(titles: Sequence[str]) -> Layout:
     if not lengths:
         titles_of = ", ".join(pair.values_title for pair in pairs[:8])
         raise InputError(f"no column is an elevation in a unit of length: {titles_of}")
-    tracks = number_repeats([WHEEL_PATHS.get(p.name.lower(), p.name) for p in lengths])
+    tracks = number_repeats([_track_name(pair.name) for pair in lengths])
     elevations = dict(zip(tracks, lengths, strict=True))
     valid = {
         track: flags[f"{pair.name}{VALID}"]
@@ -79,6 +82,11 @@ def find_layout(titles: Sequence[str]) -> Layout:
     }
     used = [*elevations.values(), *valid.values()]
     return Layout(elevations, valid, [p.values_title for p in pairs if p not in used])
+
+
+def _track_name(name: str) -> str:
+    """Return the name of a wheel path: the end of one that no profile directory could hold."""
+    return WHEEL_PATHS.get(name.lower(), name[-LONGEST_NAME:].lstrip(" ._-"))
 
 
 def list_pairs(titles: Sequence[str]) -> list[Pair]:

@@ -23,6 +23,7 @@ from floatref_adapters.formats.viewer_text.column_pairs import (
     Pair,
     find_layout,
     is_header,
+    list_pairs,
     unit_of,
 )
 from floatref_adapters.formats.viewer_text.text_rows import (
@@ -61,14 +62,19 @@ class ViewerText:
 
         Raises InputError in one line naming the file for anything else than such a file.
         """
-        if not path.is_file():
-            raise InputError(f"{path}: not a file; give a text file")
-        with prefix_errors(path):
-            try:
-                with open_bytes(path) as raw, _text(raw) as stream:
-                    return _profile(stream)
-            except UnicodeDecodeError as error:
-                raise InputError("not UTF-8 text; export it as text again") from error
+        return _read(path)
+
+    def read_unstated(self, path: Path) -> tuple[Profile, str] | None:
+        """Return the profile with heights as they are written, and the unit of its distances.
+
+        None if every title states its unit. Raises InputError as `read`.
+        """
+        with prefix_errors(path), open_bytes(path) as stream:
+            line = stream.readline(LONGEST_HEADER).decode("utf-8-sig", "replace")
+            pairs = list_pairs(line.rstrip("\r\n").split(TAB))
+        if not pairs or any(pair.unit for pair in pairs):
+            return None
+        return _read(path, "m"), pairs[0].distance_unit.strip().rstrip(".").lower()
 
     def write(self, profile: Profile, path: Path) -> None:
         """Write ``profile`` in m; its validity where a point is not valid, but no 1-σ.
@@ -87,13 +93,24 @@ class ViewerText:
                 stream.writelines(_lines(profile, channels, first, decimals))
 
 
+def _read(path: Path, unstated: str = "") -> Profile:
+    if not path.is_file():
+        raise InputError(f"{path}: not a file; give a text file")
+    with prefix_errors(path):
+        try:
+            with open_bytes(path) as raw, _text(raw) as stream:
+                return _profile(stream, unstated)
+        except UnicodeDecodeError as error:
+            raise InputError("not UTF-8 text; export it as text again") from error
+
+
 def _text(raw: io.BufferedReader) -> io.TextIOWrapper:
     return io.TextIOWrapper(raw, encoding="utf-8-sig", newline="")
 
 
-def _profile(stream: io.TextIOWrapper) -> Profile:
+def _profile(stream: io.TextIOWrapper, unstated: str) -> Profile:
     titles = stream.readline(LONGEST_HEADER).rstrip("\r\n").split(TAB)
-    layout = find_layout(titles)
+    layout = find_layout(titles, unstated)
     pairs = [*layout.elevations.values(), *layout.valid.values()]
     columns = Columns(stream, len(titles), pairs, titles)
     start, interval = _grid(columns, pairs)

@@ -18,7 +18,10 @@ Floats = NDArray[np.float64]
 ROWS = 1 << 14
 """Rows that are handled together."""
 FIRST_ROWS = 1000
-"""Rows whose distances tell with how many decimals they are written."""
+"""Rows at the start and at the end whose distances tell with how many decimals they are written.
+
+Viewers write 15 digits, so distances far from zero have fewer decimals than near ones.
+"""
 DECIMALS, DIGITS = 12, 13
 """Decimals of numbers below one, and significant digits of others: a picometre, or a part in 1e12.
 
@@ -58,6 +61,7 @@ class Columns:
         places = [place for pair in pairs for place in (pair.distance, pair.values)]
         parts: dict[int, list[Floats]] = {place: [np.empty(0)] for place in places}
         self._decimals = dict.fromkeys(places, 0)
+        last: dict[int, list[str]] = {place: [] for place in places}
         first = 2
         for rows in _blocks(stream):
             _check_widths(rows, width, first)
@@ -66,7 +70,11 @@ class Columns:
                 parts[place].append(self._numbers(texts, place, first))
                 if first < FIRST_ROWS:
                     self._decimals[place] = max(map(count_decimals, texts[:FIRST_ROWS]))
+                last[place] = [*last[place], *filter(None, texts)][-FIRST_ROWS:]
             first += len(rows)
+        for place, texts in last.items():
+            decimals = max(map(count_decimals, texts), default=0)
+            self._decimals[place] = min(self._decimals[place], decimals)
         self._values = {place: np.concatenate(found) for place, found in parts.items()}
 
     def values(self, pair: Pair) -> Floats:

@@ -15,8 +15,8 @@ from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.undoing import Compared, compare_track, find_unusable
 
 LEAST_MISSING_M = 1.0
-DISTANCE_PERCENT, HEIGHT_PERCENT, LONG_WAVE_PERCENT = 0.15, 1.0, 5.0
-"""Errors that count where a worksheet sets no limits."""
+DISTANCE_PERCENT, HEIGHT_PERCENT, LONG_WAVE_PERCENT, CORRELATION = 0.15, 1.0, 5.0, 0.92
+"""Errors, and the least correlation, that count where a worksheet sets no limits."""
 LEAST_EXPLAINED = 0.1
 """An error within the limits is named only for a run below the limits, from this share on."""
 LEAST_LONG_PERCENT = 10.0
@@ -53,7 +53,8 @@ def causes(
     if not fit.found:
         return (Cause("not-this-road", "not this road", math.nan),)
     wanted = limits or CertificationLimits()
-    lost, poor = 1.0 - before, not before >= max(wanted.accuracy, wanted.repeatability)
+    least = [c for c in (wanted.accuracy, wanted.repeatability) if c is not None]
+    lost, poor = 1.0 - before, not before >= max(least, default=CORRELATION)
     found, score = [], before
     for suspect in _suspects(reference, run, track, fit, wanted):
         after = suspect.undone.correlation() if suspect.undone is not None else math.nan

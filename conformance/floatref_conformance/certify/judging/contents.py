@@ -123,6 +123,27 @@ class RunSheet:
     profile: Profile | None = None
 
 
+@dataclass(frozen=True)
+class LateralPair:
+    """Two runs, or the reference and a run, in one wheel path.
+
+    Attributes:
+        first, second: the names of the runs; ``first`` may be ``reference``.
+        separation_m: mean distance between the lines that were driven, to the side.
+        left_m: by how far the second lies left of the first, on average.
+        agreement: cross correlation.
+        iri_percent: by how much the IRI of the second is larger.
+    """
+
+    first: str
+    second: str
+    track: str
+    separation_m: float
+    left_m: float
+    agreement: float
+    iri_percent: float
+
+
 @dataclass(frozen=True, eq=False)
 class SectionSheet:
     """One test section.
@@ -134,6 +155,7 @@ class SectionSheet:
             shape (runs, runs) in the order of ``runs``; NaN elsewhere.
         reference: within the section.
         reference_notes: how the reference was made, and warnings.
+        lateral: agreement by lateral separation; empty unless all runs have positions.
     """
 
     name: str
@@ -146,6 +168,7 @@ class SectionSheet:
     criteria: tuple[Criterion, ...]
     reference: Profile
     reference_notes: tuple[str, ...] = ()
+    lateral: tuple[LateralPair, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import fsum, isnan, nan, sqrt
+from math import fsum, inf, isnan, nan, sqrt
 
 import numpy as np
 
 from floatref.values.arrays import FloatArray
 from floatref_conformance.certify.judging.comparing import with_others
 from floatref_conformance.certify.judging.contents import Criterion, Judged, RunSheet, RunTrack
-from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.judging.limits import CertificationLimits, falls_below
 from floatref_conformance.certify.judging.reasons import (
     join_reasons,
     judge,
@@ -37,20 +37,6 @@ def outliers(pairs: FloatArray, limit: float) -> tuple[list[int], float]:
     return [], np.nan
 
 
-REPEATABILITY = (
-    "AASHTO R 56-14, repeatability: cross correlation of the IRI filter's output 0.92, averaged "
-    "over all pairs of ten runs, each wheel path apart"
-)
-ACCURACY = (
-    "AASHTO R 56-14, accuracy: cross correlation of the IRI filter's output with the reference "
-    "0.90, averaged over the runs, each wheel path apart"
-)
-BIAS = (
-    "ours, not of AASHTO R 56-14, which has the IRI reported: mean error of the IRI within 5 % in "
-    "class adequate and 2 % in reference, as of the conformance checks at constant speed"
-)
-
-
 def judge_repeatability(
     name: str, runs: Sequence[RunSheet], pairs: FloatArray, limits: CertificationLimits
 ) -> Criterion:
@@ -59,14 +45,15 @@ def judge_repeatability(
     The reason names the runs without which the others would agree; where those are too many, all
     that are below the limit.
     """
-    found = pairs[~np.isnan(pairs)]
+    found, clause = pairs[~np.isnan(pairs)], limits.clause("repeatability")
     lacking = "" if found.size else "it takes two runs that can be correlated"
     made = _correlation(
-        ("repeatability", f"agreement of {found.size} pairs of runs", REPEATABILITY),
+        ("repeatability", f"agreement of {found.size} pairs of runs", clause),
         (mean(found.tolist()), limits.repeatability, name, lacking),
         [(run, track, track.with_others) for run, track in of_track(runs, name)],
     )
-    blamed, rest = outliers(pairs, limits.repeatability)
+    least = -inf if limits.repeatability is None else limits.repeatability
+    blamed, rest = outliers(pairs, least)
     if not blamed:
         return made
     tracks = {run.name: track for run, track in of_track(runs, name)}
@@ -85,7 +72,11 @@ def judge_accuracy(name: str, runs: Sequence[RunSheet], limits: CertificationLim
     found = [score for _, _, score in scores if not isnan(score)]
     lacking = "" if found else "no run can be compared with the reference"
     return _correlation(
-        ("accuracy", f"agreement of {len(found)} runs with the reference", ACCURACY),
+        (
+            "accuracy",
+            f"agreement of {len(found)} runs with the reference",
+            limits.clause("accuracy"),
+        ),
         (mean(found), limits.accuracy, name, lacking),
         scores,
     )
@@ -118,7 +109,7 @@ def judge_bias(name: str, runs: Sequence[RunSheet], limits: CertificationLimits)
     return Criterion(
         "iri-bias",
         "mean error of the IRI",
-        BIAS,
+        limits.clause("iri_bias_percent"),
         value,
         limit,
         "%",
@@ -136,15 +127,15 @@ def mean(values: Sequence[float]) -> float:
 
 def _correlation(
     words: tuple[str, str, str],
-    figures: tuple[float, float, str, str],
+    figures: tuple[float, float | None, str, str],
     scores: list[tuple[RunSheet, RunTrack, float]],
 ) -> Criterion:
     """Return the criterion of an average; it names every run that is itself below the limit."""
     value, limit, name, lacking = figures
     absent = [run.name for run, _, score in scores if isnan(score)]
-    below = sorted((s for s in scores if s[2] < limit), key=lambda s: s[2])
+    below = sorted((s for s in scores if falls_below(s[2], limit)), key=lambda s: s[2])
     text = [with_causes(f"{run.name} at {score:.3f}", track) for run, track, score in below]
-    judged = judge(value, limit, value < limit)
+    judged = judge(value, limit, falls_below(value, limit))
     if absent and judged is Judged.PASS:
         judged = Judged.MISSING
     reason = join_reasons(

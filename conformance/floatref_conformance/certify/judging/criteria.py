@@ -5,6 +5,7 @@ from math import nan
 
 from floatref.values.arrays import FloatArray
 from floatref.values.profile import Profile
+from floatref_conformance.certify.judging.asked import judge_asked
 from floatref_conformance.certify.judging.contents import Criterion, Judged, RunSheet
 from floatref_conformance.certify.judging.correlations import (
     judge_accuracy,
@@ -33,7 +34,6 @@ MISSING_PERCENT = 2.0
 Compare's offset of 1 m leaves out 0.6 % of 0.1 mile and a distance error of 1 % leaves out 1 %:
 neither is a hole. What is beyond is road that nobody measured, bridged by a straight line.
 """
-RUNS = "AASHTO R 56-14: ten repeated runs at each test section"
 COVERAGE = "ours: a run holds elevations for all but 2 % of the section, at each wheel path"
 FLAGGED = "ours: what a run flags as not valid is compared like the rest, and reported"
 
@@ -60,34 +60,37 @@ def judge_section(
             judge_height(name, used, limits),
             judge_long_waves(name, used, limits),
         ]
-    return tuple(made)
+    return (*made, *judge_asked(used, list(pairs), limits))
 
 
-def verdict_of(criteria: Iterable[Criterion]) -> Verdict:
+def verdict_of(criteria: Iterable[Criterion], has_open: bool = False) -> Verdict:
     """Return FAIL if one failed, INCOMPLETE if one is missing or not any was judged, else PASS.
 
-    ``criteria`` are all of a worksheet: its own, its sections' and its stationary tests'.
+    ``criteria`` are all of a worksheet: its own, its sections' and its stationary tests'. A
+    practice that ``has_open`` requirements, which cannot be judged, is never passed; nor is
+    coverage alone, which is ours, a reason to pass.
     """
-    outcomes = {criterion.judged for criterion in criteria}
+    outcomes = {one.judged for one in criteria if one.id != "coverage" or one.judged != Judged.PASS}
     if Judged.FAIL in outcomes:
         return Verdict.FAIL
     if Judged.MISSING in outcomes or Judged.PASS not in outcomes:
         return Verdict.INCOMPLETE
-    return Verdict.PASS
+    return Verdict.INCOMPLETE if has_open else Verdict.PASS
 
 
 def _number(runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
     """Return how many runs could be used; too few leave the verdict open."""
     count, left_out = sum(not run.error for run in runs), name_unused(runs)
-    enough = count >= limits.runs
+    enough = limits.runs is None or count >= limits.runs
     reason = join_reasons(
         "" if enough else f"{count} of the {limits.runs} runs that are asked for",
         f"not used: {list_in_words(left_out)}" if left_out else "",
     )
     judged = Judged.PASS if enough else Judged.MISSING
-    title = "runs that could be used"
+    judged = Judged.REPORTED if limits.runs is None else judged
+    title, limit = "runs that could be used", None if limits.runs is None else float(limits.runs)
     return Criterion(
-        "runs", title, RUNS, float(count), float(limits.runs), "", True, judged, "", reason
+        "runs", title, limits.clause("runs"), float(count), limit, "", True, judged, "", reason
     )
 
 

@@ -1,13 +1,21 @@
-"""What a profiler has to reach: the limits of AASHTO R 56-14 and R 57-14, and ours by class."""
+"""What a profiler has to reach: the limits of a practice, by class."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 
+from floatref_conformance.certify.practice.practice_document import DEFAULT, read_own
+from floatref_conformance.certify.practice.requirements import Practice
 from floatref_conformance.classes import DeviceClass
+
+_OURS = read_own(DEFAULT).of_class(DeviceClass.NOMINAL.value)
+
+
+def _limit(quantity: str) -> float | None:
+    return _OURS.limit_of(quantity)
 
 
 @dataclass(frozen=True)
 class CertificationLimits:
-    """The limits of a worksheet; None: reported, not judged.
+    """The limits of a worksheet, those of the default practice unless given; None: not judged.
 
     Attributes:
         runs: repeated runs at each test section, at least.
@@ -18,31 +26,43 @@ class CertificationLimits:
         iri_bias_percent: mean error of the IRI against the reference's, in magnitude.
         long_wave_percent: error of waves of 4 to 25 m, beyond the scale of heights.
         quiescent_m_per_km, bounce_m_per_km: IRI of the stationary tests.
+        interval_m: between the points of a run, at most.
+        practice: where they come from.
     """
 
-    runs: int = 10
-    repeatability: float = 0.92
-    accuracy: float = 0.90
-    distance_percent: float | None = 0.15
-    height_percent: float | None = 1.0
-    iri_bias_percent: float | None = None
-    long_wave_percent: float | None = 5.0
-    quiescent_m_per_km: float = 0.047
-    bounce_m_per_km: float = 0.126
+    runs: int | None = int(_limit("runs") or 0)
+    repeatability: float | None = _limit("repeatability")
+    accuracy: float | None = _limit("accuracy")
+    distance_percent: float | None = _limit("distance_percent")
+    height_percent: float | None = _limit("height_percent")
+    iri_bias_percent: float | None = _limit("iri_bias_percent")
+    long_wave_percent: float | None = _limit("long_wave_percent")
+    quiescent_m_per_km: float | None = _limit("quiescent_m_per_km")
+    bounce_m_per_km: float | None = _limit("bounce_m_per_km")
+    interval_m: float | None = _limit("interval_m")
+    practice: Practice = field(default=_OURS, repr=False)
+
+    def figures(self) -> dict[str, float | None]:
+        """Return every limit by its name."""
+        return {name: getattr(self, name) for name in LIMITED}
+
+    def clause(self, quantity: str) -> str:
+        """Return where the limit of ``quantity`` comes from."""
+        return self.practice.clause_of(quantity)
 
 
-def limits_of(device_class: DeviceClass) -> CertificationLimits:
-    """Return the limits of ``device_class``; nominal is the practice's own."""
-    return {
-        DeviceClass.NOMINAL: CertificationLimits(),
-        DeviceClass.ADEQUATE: CertificationLimits(
-            repeatability=0.95, accuracy=0.92, iri_bias_percent=5.0
-        ),
-        DeviceClass.REFERENCE: CertificationLimits(
-            repeatability=0.98,
-            accuracy=0.98,
-            iri_bias_percent=2.0,
-            quiescent_m_per_km=0.047 / 2,
-            bounce_m_per_km=0.126 / 2,
-        ),
-    }[device_class]
+LIMITED = tuple(one.name for one in fields(CertificationLimits) if one.name != "practice")
+"""The quantities that have a limit."""
+
+
+def limits_of(device_class: DeviceClass, practice: Practice | None = None) -> CertificationLimits:
+    """Return the limits of ``practice``, the default one without it, for ``device_class``."""
+    chosen = (practice or read_own(DEFAULT)).of_class(device_class.value)
+    found = {name: chosen.limit_of(name) for name in LIMITED}
+    runs = found.pop("runs")
+    return CertificationLimits(None if runs is None else int(runs), **found, practice=chosen)
+
+
+def falls_below(value: float, limit: float | None) -> bool:
+    """Return whether ``value`` is below ``limit``; nothing is below no limit, and NaN never is."""
+    return limit is not None and value < limit

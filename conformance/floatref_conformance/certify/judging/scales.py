@@ -9,7 +9,7 @@ from scipy.special import ndtr, ndtri
 from floatref.errors import InputError
 from floatref_conformance.certify.judging.contents import Criterion, Judged, RunSheet, RunTrack
 from floatref_conformance.certify.judging.correlations import mean
-from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.judging.limits import CertificationLimits, falls_below
 from floatref_conformance.certify.judging.reasons import (
     join_reasons,
     judge,
@@ -19,25 +19,8 @@ from floatref_conformance.certify.judging.reasons import (
 )
 from floatref_conformance.certify.plan.plan_document import DistancePlan
 
-DISTANCE = (
-    "AASHTO R 56-14: distance within 0.15 %; ours: measured by the section's profiles, and "
-    "every run is held to it"
-)
-READINGS = (
-    "AASHTO R 56-14: distance over a path of known length within 0.15 %; ours: every reading is "
-    "held to it"
-)
-HEIGHT = (
-    "ours, from the block check of AASHTO R 57-14, 0.01 in on a block of 1 in: 1 % of the "
-    "heights, measured by the section's profiles, every run held to it"
-)
-
-
-LONG_WAVES = (
-    "ours: what is left of the vehicle's own motion where height and acceleration are not of one "
-    "moment and place, or another filter; 5 % of a wave, half of what 10 ms leave with the car of "
-    "the IRI"
-)
+BY_PROFILES = "ours: measured by the section's profiles, and every run is held to it"
+BY_READINGS = "over a path of known length; ours: every reading is held to it"
 FINEST = 0.001
 """Percent; a smaller uncertainty is given as this one."""
 
@@ -67,7 +50,8 @@ class ScaleError:
 
 def agrees(track: RunTrack, limits: CertificationLimits) -> bool:
     """Return whether a wheel path of a run is within the limits all by itself."""
-    low = track.accuracy < limits.accuracy or track.with_others < limits.repeatability
+    low = falls_below(track.accuracy, limits.accuracy)
+    low = low or falls_below(track.with_others, limits.repeatability)
     return not low and scales_agree(track, limits)
 
 
@@ -99,10 +83,11 @@ def judge_distance(runs: Sequence[RunSheet], limits: CertificationLimits) -> tup
     """
     errors = [_best(run) for run in runs if run.tracks]
     found = [one.percent for one in errors if not isnan(one.percent)]
-    words = "distance", "error of distance, the largest of a run", DISTANCE
+    clause = f"{limits.clause('distance_percent')}; {BY_PROFILES}"
+    words = "distance", "error of distance, the largest of a run", clause
     largest = _judge_largest(words, errors, limits.distance_percent, "", Judged.MISSING)
     title = "error of distance, mean of the runs"
-    return largest, report_value("distance-mean", title, DISTANCE, mean(found), "%")
+    return largest, report_value("distance-mean", title, clause, mean(found), "%")
 
 
 def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimits) -> Criterion:
@@ -115,7 +100,8 @@ def judge_height(name: str, runs: Sequence[RunSheet], limits: CertificationLimit
     errors = [
         ScaleError(run.name, track.height_percent, track.height_sigma) for run, track in tracks
     ]
-    words = "height-scale", "error of the scale of heights, the largest of a run", HEIGHT
+    title = "error of the scale of heights, the largest of a run"
+    words = "height-scale", title, limits.clause("height_percent")
     return _judge_largest(
         words, errors, limits.height_percent, name, Judged.REPORTED, sigmas_of(len(errors))
     )
@@ -140,7 +126,8 @@ def judge_mean_height(runs: Sequence[RunSheet], limits: CertificationLimits) -> 
         value = fsum(w * e.percent for w, e in zip(weights, errors, strict=True)) / fsum(weights)
         common = 0.5 * len(errors) / max(paths, 1)
         found = [ScaleError("the mean", value, sqrt((0.5 + common) / fsum(weights)))]
-    words = "height-scale-mean", "error of the scale of heights, mean of all runs", HEIGHT
+    title = "error of the scale of heights, mean of all runs"
+    words = "height-scale-mean", title, limits.clause("height_percent")
     return _judge_largest(words, found, limits.height_percent, "", Judged.REPORTED)
 
 
@@ -153,7 +140,8 @@ def judge_long_waves(name: str, runs: Sequence[RunSheet], limits: CertificationL
         ScaleError(run.name, track.long_percent, track.long_sigma)
         for run, track in of_track(runs, name)
     ]
-    words = "long-waves", "error of waves of 4 to 25 m, the largest of a run", LONG_WAVES
+    title = "error of waves of 4 to 25 m, the largest of a run"
+    words = "long-waves", title, limits.clause("long_wave_percent")
     return _judge_largest(
         words, errors, limits.long_wave_percent, name, Judged.REPORTED, sigmas_of(len(errors))
     )
@@ -171,15 +159,12 @@ def judge_readings(plan: DistancePlan, limits: CertificationLimits) -> tuple[Cri
         ScaleError(f"reading {k} ({reading:g} m)", 100.0 * (reading / plan.known_m - 1.0), 0.0)
         for k, reading in enumerate(plan.readings_m, 1)
     ]
-    words = (
-        "distance-readings",
-        f"distance read for {plan.known_m:g} m, the largest error",
-        READINGS,
-    )
+    clause = f"{limits.clause('distance_percent')}, {BY_READINGS}"
+    words = "distance-readings", f"distance read for {plan.known_m:g} m, the largest error", clause
     largest = _judge_largest(words, errors, limits.distance_percent, "", Judged.MISSING)
     title = f"distance read for {plan.known_m:g} m, mean error"
     average = mean([one.percent for one in errors])
-    return largest, report_value("distance-readings-mean", title, READINGS, average, "%")
+    return largest, report_value("distance-readings-mean", title, clause, average, "%")
 
 
 def _best(run: RunSheet) -> ScaleError:

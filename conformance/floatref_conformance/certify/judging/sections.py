@@ -22,10 +22,12 @@ from floatref_conformance.certify.judging.comparing import (
 )
 from floatref_conformance.certify.judging.contents import RunSheet, RunTrack, SectionSheet
 from floatref_conformance.certify.judging.criteria import judge_section
+from floatref_conformance.certify.judging.lateral import Stretch, pair_runs
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.judging.scales import agrees
 from floatref_conformance.certify.plan.cutting import section_of, within
 from floatref_conformance.certify.plan.plan_document import SectionPlan
+from floatref_conformance.certify.plan.trails import Trail
 
 LEAST_IRI = 0.01
 """IRI in m/km below which a reference is level or in other units; the best roads have 0.3."""
@@ -41,6 +43,7 @@ class Run:
         notes: what had to be done to it, and warnings.
         profile: with the reference's wheel paths; None if it could not be used.
         error: why it could not; empty otherwise.
+        trail: where it was, on the reference's axis; None if nobody knows.
     """
 
     name: str
@@ -48,6 +51,7 @@ class Run:
     notes: tuple[str, ...] = ()
     profile: Profile | None = None
     error: str = ""
+    trail: Trail | None = None
 
 
 def truth_of(plan: SectionPlan, reference: Profile) -> Profile:
@@ -68,12 +72,16 @@ def truth_of(plan: SectionPlan, reference: Profile) -> Profile:
 
 
 def section_sheet(
-    plan: SectionPlan, truth: Profile, runs: Sequence[Run], limits: CertificationLimits
+    plan: SectionPlan,
+    truth: Profile,
+    runs: Sequence[Run],
+    limits: CertificationLimits,
+    trail: Trail | None = None,
 ) -> SectionSheet:
     """Return what was measured at a section, and what became of its criteria.
 
     ``truth`` is that of `truth_of`; runs come in the natural order of their names, whatever their
-    order here.
+    order here. ``trail`` is where the reference was.
     """
     truth_iri = _roughness(truth)
     measured = _without_copies(truth, [_measure(truth, run) for run in sorted(runs, key=_place)])
@@ -83,6 +91,8 @@ def section_sheet(
         _sheet(truth, one, {name: float(others[name][k]) for name in truth_iri}, limits)
         for k, one in enumerate(measured)
     )
+    stretch = Stretch(truth.start_m, truth.start_m + truth.length_m)
+    trails = {run.name: run.trail for run in runs}
     return SectionSheet(
         name=plan.name,
         reference_source=str(plan.reference),
@@ -93,6 +103,7 @@ def section_sheet(
         pairs=pairs,
         criteria=judge_section(truth, sheets, pairs, limits),
         reference=truth,
+        lateral=pair_runs(stretch, sheets, pairs, trails, trail),
     )
 
 

@@ -6,6 +6,7 @@ of the recording counts is ours: what is `END_M` from both ends, unless a stretc
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import isfinite, nan
 
 import numpy as np
@@ -25,10 +26,6 @@ TITLES = {
     "quiescent": "IRI of the parked vehicle at rest",
     "bounce": "IRI of the parked vehicle, its body pushed",
 }
-CLAUSES = {
-    "quiescent": "AASHTO R 57-14, static test: IRI 0.047 m/km; class reference: half, ours",
-    "bounce": "AASHTO R 57-14, bounce test: IRI 0.126 m/km; class reference: half, ours",
-}
 
 
 def stationary_sheet(
@@ -45,20 +42,16 @@ def stationary_sheet(
     that cannot be judged: too short, or with a point without elevation in what counts. Raises
     InputError for an invalid stretch.
     """
-    limit = limits.quiescent_m_per_km if id_ == "quiescent" else limits.bounce_m_per_km
     if plan.stretch_m is not None:
         _check_stretch(id_, plan.stretch_m)
     if profile is None:
-        return _missing(id_, plan, notes, limit, error or "no profile", None)
+        return _missing(id_, plan, notes, limits, error or "no profile", None)
     try:
         start, end = _stretch(profile, plan.stretch_m)
         found = {track.name: _iri(profile, track.name, start, end) for track in profile.tracks}
     except InputError as refused:
-        return _missing(id_, plan, notes, limit, str(refused), profile)
-    criteria = tuple(
-        _criterion(id_, value, limit, judge(value, limit, value > limit), name, "")
-        for name, value in found.items()
-    )
+        return _missing(id_, plan, notes, limits, str(refused), profile)
+    criteria = tuple(_criterion(id_, value, limits, name) for name, value in found.items())
     text = (*notes, *_flags(profile, start, end))
     return StationarySheet(id_, str(plan.source), start, end, found, text, criteria, profile)
 
@@ -125,20 +118,20 @@ def _missing(
     id_: str,
     plan: StationaryPlan,
     notes: Sequence[str],
-    limit: float,
+    limits: CertificationLimits,
     reason: str,
     profile: Profile | None,
 ) -> StationarySheet:
     """Return the sheet of a test that was not judged."""
     start, end = plan.stretch_m or (nan, nan)
-    criterion = _criterion(id_, nan, limit, Judged.MISSING, "", reason)
+    criterion = replace(_criterion(id_, nan, limits, ""), judged=Judged.MISSING, reason=reason)
     return StationarySheet(
         id_, str(plan.source), start, end, {}, tuple(notes), (criterion,), profile
     )
 
 
-def _criterion(
-    id_: str, value: float, limit: float, judged: Judged, track: str, reason: str
-) -> Criterion:
-    title, clause = TITLES[id_], CLAUSES[id_]
-    return Criterion(id_, title, clause, value, limit, "m/km", False, judged, track, reason)
+def _criterion(id_: str, value: float, limits: CertificationLimits, track: str) -> Criterion:
+    quantity = f"{id_}_m_per_km"
+    limit, clause = limits.figures()[quantity], limits.clause(quantity)
+    judged = judge(value, limit, limit is not None and value > limit)
+    return Criterion(id_, TITLES[id_], clause, value, limit, "m/km", False, judged, track)

@@ -19,7 +19,12 @@ from floatref.files.sources import open_bytes
 from floatref.values.profile import Profile, ProfileTrack
 from floatref_conformance.certify.plan.commands import Commands
 from floatref_conformance.certify.plan.plan_document import Processing
+from floatref_conformance.certify.plan.trails import Trail, read_trail
 
+GUESSED = "guessed_units"
+"""Key of the provenance under which `floatref convert` says which unit it guessed."""
+PROCESSED = "processed by"
+"""How the note on a recording begins."""
 AT_ONCE = 2
 """Commands that run at the same time."""
 LONGEST_HEADER = 1 << 16
@@ -34,11 +39,13 @@ class Converted:
         profile: None if it could not be read.
         notes: how it was made, and warnings.
         error: in one line, with the path, why there is no profile; empty otherwise.
+        trail: where it was; None without positions.
     """
 
     profile: Profile | None
     notes: tuple[str, ...] = ()
     error: str = ""
+    trail: Trail | None = None
 
 
 def convert_all(
@@ -70,10 +77,12 @@ def _convert(path: Path, processing: Processing, out: Path, commands: Commands) 
         no_profile = ""
         if not path.is_dir():
             # A name without a suffix alone would be the directory of a recording as well.
-            target = ("--format", "profile", "--out", str(out))
+            target = ("--guess-units", "--format", "profile", "--out", str(out))
             no_profile = commands.run("convert", *target, "--", str(path)).error
             if not no_profile:
-                return Converted(_load_apart(read_profile(out), path))
+                read = read_profile(out)
+                guessed = read.provenance.get(GUESSED)
+                return Converted(_load_apart(read, path), (str(guessed),) if guessed else ())
         return _process(path, processing, out, commands, no_profile)
     except (FloatrefError, OSError, MemoryError) as error:
         return Converted(None, error=_name_path(path, str(error) or type(error).__name__))
@@ -94,8 +103,9 @@ def _process(
         both = f"no profile ({bare[0]}), and no recording ({bare[-1]})"
         return Converted(None, error=f"{path}: {both if len(bare) > 1 else bare[0]}")
     report = json.loads(answer.output)
-    notes = (f"processed by {report['pipeline']}", *report["warnings"])
-    return Converted(_load_apart(read_profile(out), path), notes)
+    notes = (f"{PROCESSED} {report['pipeline']}", *report["warnings"])
+    profile = _load_apart(read_profile(out), path)
+    return Converted(profile, notes, trail=read_trail(path, profile))
 
 
 def _options(processing: Processing) -> list[str]:

@@ -63,12 +63,16 @@ class Plan:
 
 @dataclass(frozen=True)
 class Processing:
-    """How recordings become profiles: what the `floatref process` command is given."""
+    """How recordings become profiles: what the `floatref process` command is given.
+
+    ``reference_is_run`` says that the references are runs of a profiler, and no truth.
+    """
 
     pipeline: str | None = None
     settings: Path | None = None
     adapter: str | None = None
     channel_map: Path | None = None
+    reference_is_run: bool = False
 
 
 SCHEMA = "conformance-plan-1"

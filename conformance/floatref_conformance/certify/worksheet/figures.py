@@ -12,6 +12,7 @@ from floatref_conformance.certify.judging.contents import (
 )
 from floatref_conformance.certify.judging.limits import CertificationLimits
 from floatref_conformance.certify.worksheet import pictures, wording
+from floatref_conformance.certify.worksheet.lateral_parts import lateral_picture
 from floatref_conformance.certify.worksheet.pictures import lag_picture
 from floatref_conformance.certify.worksheet.wording import correlation
 from floatref_conformance.render.failures import Markup, Picture
@@ -29,8 +30,9 @@ SPAN = 0.1
 def heat_map(name: str, title: str, values: FloatArray, limit: float) -> str:
     """Return ``values``, of shape (n, n) with a number above the diagonal alone, as one element.
 
-    Cells below ``limit`` are in another colour, framed, and their number is bold; rows and
-    columns are numbered from 1. Too many for a number in each cell, they are coloured alone.
+    Cells below ``limit``, 0 for no limit, are in another colour, framed, and their number is
+    bold; rows and columns are numbered from 1. Too many for a number in each, they
+    are coloured alone.
     """
     n = len(values)
     width = min(WIDEST, (WIDTH - LEFT - RIGHT) / max(n - 1, 1))
@@ -42,12 +44,13 @@ def heat_map(name: str, title: str, values: FloatArray, limit: float) -> str:
         for column in range(row + 1, n):
             x, y = LEFT + (column - 1) * width, TOP + (row + 1) * height
             parts.append(_cell(float(values[row, column]), limit, x, y, width, height))
-    return "\n".join([*parts, _legend(limit), "</svg>"])
+    return "\n".join([*parts, *([_legend(limit)] if limit else []), "</svg>"])
 
 
 def _describe(runs: int, below: int, limit: float) -> str:
     pairs = runs * (runs - 1) // 2
-    return f"Cross correlation of {pairs} pairs of {runs} runs; {below} of them below {limit:g}."
+    low = f"; {below} of them below {limit:g}" if limit else ""
+    return f"Cross correlation of {pairs} pairs of {runs} runs{low}."
 
 
 def _heads(n: int, width: float, height: float) -> str:
@@ -119,8 +122,12 @@ def _of_section(sheet: SectionSheet, limits: CertificationLimits, anchor: str) -
         )
         if len(sheet.runs) > 1 and track in sheet.pairs:
             title = f"Wheel path {track}: cross correlation of all pairs of runs"
-            drawn = heat_map(f"{name}-pairs", title, sheet.pairs[track], limits.repeatability)
+            least = limits.repeatability or 0.0
+            drawn = heat_map(f"{name}-pairs", title, sheet.pairs[track], least)
             yield _picture(drawn, f"{title}, by their numbers.")
+    drawn = lateral_picture(sheet, f"{anchor}-lateral")
+    if drawn:
+        yield _picture(drawn, "Agreement of each pair against the distance between their lines.")
     yield from _lags(sheet, limits, anchor)
 
 

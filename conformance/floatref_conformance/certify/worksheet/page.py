@@ -15,7 +15,7 @@ from floatref_conformance.certify.judging.contents import (
     Worksheet,
 )
 from floatref_conformance.certify.judging.limits import CertificationLimits
-from floatref_conformance.certify.worksheet import wording
+from floatref_conformance.certify.worksheet import lateral_parts, wording
 from floatref_conformance.certify.worksheet.figures import of_section, of_test
 from floatref_conformance.render.failures import Picture
 from floatref_conformance.render.text import fill_template, needs_jinja
@@ -78,6 +78,7 @@ class SectionPart:
     tracks: tuple[TrackPart, ...]
     notes: tuple[RunNote, ...]
     pictures: tuple[Picture, ...]
+    lateral: tuple[tuple[str, ...], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -92,6 +93,9 @@ class Page:
     sections: tuple[SectionPart, ...]
     tests: tuple[SectionPart, ...]
     heads: tuple[str, ...]
+    lateral_heads: tuple[str, ...]
+    title: str
+    practice: Pairs
     limits: Pairs
     clauses: Pairs
     settings: Pairs
@@ -118,6 +122,9 @@ def page_of(worksheet: Worksheet) -> Page:
         ),
         tests=tuple(_test(s, f"test-{n}") for n, s in enumerate(worksheet.stationary, start=1)),
         heads=wording.FIGURES,
+        lateral_heads=lateral_parts.HEADS,
+        title=worksheet.limits.practice.title,
+        practice=wording.practice_in_words(worksheet.limits),
         limits=wording.limits_in_words(worksheet.limits),
         clauses=wording.clauses_of(worksheet),
         settings=wording.list_pairs(worksheet.settings),
@@ -164,6 +171,7 @@ def _section(sheet: SectionSheet, limits: CertificationLimits, anchor: str) -> S
         ),
         tuple(_note(n, run) for n, run in enumerate(sheet.runs, start=1)),
         of_section(sheet, limits, anchor),
+        lateral_parts.rows(sheet),
     )
 
 

@@ -14,7 +14,7 @@ from floatref_conformance.certify.judging.contents import (
     StationarySheet,
     Worksheet,
 )
-from floatref_conformance.certify.worksheet import wording
+from floatref_conformance.certify.worksheet import lateral_parts, wording
 from floatref_conformance.render.terminal import PLAIN_WIDTH
 from floatref_conformance.render.text import printable
 
@@ -52,7 +52,7 @@ def print_worksheet(worksheet: Worksheet, console: Console) -> None:
 
 
 def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
-    """Return limits, settings and versions in one line each, then where criteria come from."""
+    """Return practice, limits, settings and versions, then where criteria come from."""
     rows = (
         ("Limits", wording.limits_in_words(worksheet.limits)),
         ("Settings", wording.list_pairs(worksheet.settings)),
@@ -63,7 +63,9 @@ def closing_lines(worksheet: Worksheet) -> tuple[str, ...]:
         for title, pairs in rows
         if pairs
     ]
-    return (*lines, *(f"{id_}: {clause}." for id_, clause in wording.clauses_of(worksheet)))
+    practice = (f"{name}: {value}." for name, value in wording.practice_in_words(worksheet.limits))
+    clauses = (f"{id_}: {clause}." for id_, clause in wording.clauses_of(worksheet))
+    return (*practice, *lines, *clauses)
 
 
 def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console) -> None:
@@ -76,12 +78,15 @@ def _print_section(section: SectionSheet, worksheet: Worksheet, console: Console
         title = f"Runs, wheel path {track} (*: {wording.DISAGREES})"
         _show(title, _runs(section, track, worksheet), console)
     if 1 < len(section.runs) <= MOST_RUNS:
-        limit = worksheet.limits.repeatability
+        limit = worksheet.limits.repeatability or 0.0
+        below = f" (*: below {limit:g})" if limit else ""
         for track, pairs in section.pairs.items():
-            title = f"Pairs of runs, wheel path {track} (*: below {limit:g})"
+            title = f"Pairs of runs, wheel path {track}{below}"
             _show(title, _pairs(pairs, limit), console)
     elif section.runs[MOST_RUNS:]:
         _say(console, f"The pairs of {len(section.runs)} runs are on the page and in the document.")
+    if section.lateral:
+        _show("Agreement by lateral separation", _lateral(section), console)
     for index, run in enumerate(section.runs, start=1):
         _print_run(index, run, console)
 
@@ -147,6 +152,15 @@ def _pairs(pairs: FloatArray, limit: float) -> Table:
     for row in range(len(pairs) - 1):
         cells = [""] * row + [_pair(value, limit) for value in pairs[row, row + 1 :]]
         table.add_row(f"{row + 1:>2}", *cells)
+    return table
+
+
+def _lateral(section: SectionSheet) -> Table:
+    table = _empty(NARROW)
+    for head in lateral_parts.HEADS:
+        table.add_column(head, overflow="fold")
+    for row in lateral_parts.short_rows(section):
+        table.add_row(*map(_text, row))
     return table
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from math import isnan
 
+from floatref_conformance.certify.judging.asked import list_open
 from floatref_conformance.certify.judging.contents import (
     Cause,
     Criterion,
@@ -13,7 +14,7 @@ from floatref_conformance.certify.judging.contents import (
     StationarySheet,
     Worksheet,
 )
-from floatref_conformance.certify.judging.limits import CertificationLimits
+from floatref_conformance.certify.judging.limits import CertificationLimits, falls_below
 from floatref_conformance.certify.judging.scales import scales_agree
 
 NOTHING = "–"
@@ -177,18 +178,34 @@ def stretch(sheet: SectionSheet | StationarySheet) -> str:
 
 
 def limits_in_words(limits: CertificationLimits) -> tuple[tuple[str, str], ...]:
-    """Return every limit of the worksheet behind its name."""
+    """Return every limit of the worksheet behind its name; the interval only if there is one."""
+    interval = () if limits.interval_m is None else (limits.interval_m,)
     return (
-        ("Runs at each section", f"≥ {limits.runs}"),
-        ("Repeatability", f"≥ {limits.repeatability:g}"),
-        ("Accuracy", f"≥ {limits.accuracy:g}"),
+        ("Runs at each section", _at_least(limits.runs)),
+        ("Repeatability", _at_least(limits.repeatability)),
+        ("Accuracy", _at_least(limits.accuracy)),
         ("Distance error", _at_most(limits.distance_percent, "%")),
         ("Height scale error", _at_most(limits.height_percent, "%")),
         ("IRI bias", _at_most(limits.iri_bias_percent, "%")),
         ("Long wave error", _at_most(limits.long_wave_percent, "%")),
         ("Quiescent IRI", _at_most(limits.quiescent_m_per_km, "m/km")),
         ("Bounce IRI", _at_most(limits.bounce_m_per_km, "m/km")),
+        *(("Interval of points", _at_most(limits.interval_m, "m")) for _ in interval),
     )
+
+
+def practice_in_words(limits: CertificationLimits) -> tuple[tuple[str, str], ...]:
+    """Return which practice the limits are of, its digest, and what of it is not judged."""
+    practice = limits.practice
+    named = f"{practice.name}: {practice.title}; {practice.version}"
+    not_judged = (("Not judged", line) for line in list_open(limits))
+    status = (("Status of the practice", practice.status),) if practice.status else ()
+    digest = ("SHA-256 of the practice", practice.sha256)
+    return (("Practice", named), *status, digest, *not_judged)
+
+
+def _at_least(limit: float | None) -> str:
+    return "reported only" if limit is None else f"≥ {limit:g}"
 
 
 def _at_most(limit: float | None, unit: str) -> str:
@@ -220,7 +237,7 @@ def is_bad(run: RunSheet, limits: CertificationLimits, track: str | None = None)
 
 def _disagrees(track: RunTrack, limits: CertificationLimits) -> bool:
     """Return whether there is a cause, a low correlation, or a scale that is surely wrong."""
-    low = not track.accuracy >= limits.accuracy
+    low = isnan(track.accuracy) or falls_below(track.accuracy, limits.accuracy)
     return bool(track.causes) or low or not scales_agree(track, limits)
 
 

@@ -15,6 +15,7 @@ from floatref_conformance.certify.judging.contents import (
     StationarySheet,
     Worksheet,
 )
+from floatref_conformance.certify.practice.requirements import Practice
 from floatref_conformance.schemas import enforce
 
 FORMAT = "conformance-worksheet/1"
@@ -32,7 +33,8 @@ def as_json(worksheet: Worksheet) -> dict[str, Any]:
         "profiler": worksheet.profiler,
         "class": worksheet.device_class.value,
         "verdict": worksheet.verdict.value,
-        "limits": asdict(worksheet.limits),
+        "practice": _practice(worksheet.limits.practice),
+        "limits": worksheet.limits.figures(),
         "criteria": [_criterion(one) for one in worksheet.criteria],
         "sections": [_section(sheet) for sheet in worksheet.sections],
         "stationary": [_stationary(sheet) for sheet in worksheet.stationary],
@@ -54,6 +56,16 @@ def write_worksheet(worksheet: Worksheet, path: Path) -> None:
         beside.write_text(text + "\n", encoding="utf-8")
 
 
+def _practice(practice: Practice) -> Mapping[str, Any]:
+    return {
+        "name": practice.name,
+        "title": practice.title,
+        "version": practice.version,
+        "sha256": practice.sha256,
+        "not_judged": [one.quantity for one in practice.open_requirements()],
+    }
+
+
 def _criterion(criterion: Criterion) -> Mapping[str, Any]:
     return asdict(criterion) | {"judged": criterion.judged.value}
 
@@ -70,6 +82,7 @@ def _section(sheet: SectionSheet) -> Mapping[str, Any]:
         "criteria": [_criterion(one) for one in sheet.criteria],
         "runs": [_run(run) for run in sheet.runs],
         "pairs": dict(sheet.pairs),
+        "lateral": [asdict(one) for one in sheet.lateral],
     }
 
 

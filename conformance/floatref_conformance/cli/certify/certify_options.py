@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from floatref.errors import InputError
-from floatref_conformance.certify.judging.limits import CertificationLimits, limits_of
+from floatref_conformance.certify.judging.limits import (
+    LIMITED,
+    CertificationLimits,
+    limits_of,
+)
 from floatref_conformance.certify.plan.plan_document import (
     Plan,
     SectionPlan,
@@ -20,6 +24,7 @@ from floatref_conformance.certify.plan.plan_document import (
     stretch_of,
 )
 from floatref_conformance.certify.plan.run_paths import check_exists, names_of, runs_of
+from floatref_conformance.certify.practice.practice_document import DEFAULT, find_practice
 from floatref_conformance.classes import DeviceClass
 
 if TYPE_CHECKING:
@@ -60,15 +65,25 @@ class Limit(NumberType):
         return number
 
 
-def limits_with(device_class: DeviceClass, given: dict[str, Any]) -> CertificationLimits:
-    """Return the limits of ``device_class``, replaced by those ``given``; `NO_LIMIT` is None."""
-    known = {field.name for field in fields(CertificationLimits)}
+def limits_with(
+    device_class: DeviceClass, given: dict[str, Any], practice: str = DEFAULT
+) -> CertificationLimits:
+    """Return the limits of ``device_class``, replaced by those ``given``; `NO_LIMIT` is None.
+
+    Raises InputError for what is no ``practice``, and for a class that it does not have.
+    """
+    chosen = find_practice(practice)
+    classes = {one.device_class for one in chosen.requirements}
+    if device_class is not DeviceClass.NOMINAL and device_class.value not in classes:
+        raise InputError(
+            f"--class {device_class}: practice {chosen.name} has no limits for it; leave it out"
+        )
     changes: dict[str, Any] = {
         name: None if value == NO_LIMIT else value
         for name, value in given.items()
-        if name in known and value is not None
+        if name in LIMITED and value is not None
     }
-    return replace(limits_of(device_class), **changes)
+    return replace(limits_of(device_class, chosen), **changes)
 
 
 def plan_of(

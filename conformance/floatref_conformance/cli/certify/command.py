@@ -9,6 +9,7 @@ import click
 from floatref.errors import InputError
 from floatref.values.display.similar_names import suggest
 from floatref_conformance.certify.plan.plan_document import Plan, Processing
+from floatref_conformance.certify.practice.practice_document import DEFAULT
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.cli.certify.certify_options import Limit, limits_with, plan_of
 
@@ -23,6 +24,7 @@ CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)
 @click.command()
 @click.argument("runs", metavar="[RUN]...", nargs=-1)
 @click.option("--reference", metavar="PROFILE", help="Reference profile, of any format.")
+@click.option("--reference-is-run", is_flag=True, help="The reference is another run, no truth.")
 @click.option(
     "--section",
     "sections",
@@ -36,12 +38,19 @@ CORRELATION, OPTIONAL = Limit(most=1.0), Limit(optional=True)
     "--plan", metavar="FILE.toml", type=FILE, help="A file with all this for several sections."
 )
 @click.option(
+    "--practice",
+    metavar="NAME|FILE.json",
+    default=DEFAULT,
+    show_default=True,
+    help="Practice whose limits decide; `conformance practices` lists ours.",
+)
+@click.option(
     "--class",
     "device_class",
     type=click.Choice([c.value for c in DeviceClass]),
     default=DeviceClass.NOMINAL.value,
     show_default=True,
-    help="Class whose limits decide; nominal has those of AASHTO R 56 and R 57.",
+    help="Class whose limits decide; nominal has those of the practice itself.",
 )
 @click.option("--pipeline", metavar="NAME", help="Of `floatref process`, for recordings.")
 @click.option("--settings", metavar="FILE", type=FILE, help="JSON file of the pipeline's settings.")
@@ -71,10 +80,12 @@ def certify(
     /,
     runs: tuple[str, ...],
     reference: str | None,
+    reference_is_run: bool,
     sections: tuple[str, ...],
     quiescent: str | None,
     bounce: str | None,
     plan: Path | None,
+    practice: str,
     device_class: str,
     pipeline: str | None,
     settings: Path | None,
@@ -96,10 +107,10 @@ def certify(
     suite itself is at fault, no worksheet; 4: INCOMPLETE, such as too few runs.
     """
     asked = plan_of(runs, reference, sections, plan, quiescent, bounce)
-    limits = limits_with(DeviceClass(device_class), {**given, "runs": least_runs})
+    limits = limits_with(DeviceClass(device_class), {**given, "runs": least_runs}, practice)
     _check_pipeline(pipeline)
     _check_report(report)
-    processing = Processing(pipeline, settings, adapter, channel_map)
+    processing = Processing(pipeline, settings, adapter, channel_map, reference_is_run)
     worksheet = _certify_with_progress(asked, processing, limits, DeviceClass(device_class))
     if report is not None:
         _write(worksheet, report)

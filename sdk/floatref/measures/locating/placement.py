@@ -31,6 +31,7 @@ class Placement:
         height_unit, height_factor: of its elevation, and m per unit.
         height_gain: by how much higher it takes the road after that, at a first glance.
         offset_m: by how much it lay farther along, after mirroring, in m.
+        distance_scale: how many times as long its encoder takes the road.
         moves: whether anything has to be done to the run.
         alternatives: places at which it would fit as well.
     """
@@ -47,6 +48,7 @@ class Placement:
     height_factor: float = 1.0
     height_gain: float = 1.0
     offset_m: float = 0.0
+    distance_scale: float = 1.0
     alternatives: int = 0
 
     @property

@@ -132,6 +132,7 @@ def _refine(reference: Profile, run: Profile, best: Find) -> tuple[Placement, fl
         height_factor=HEIGHT_UNITS[unit],
         height_gain=amount * HEIGHT_UNITS[unit],
         offset_m=_offset(surest.line, reference),
+        distance_scale=surest.line.scale,
     )
     return placement, max(k.score for k in known)
 

@@ -53,7 +53,16 @@ def find_shift(reference: Profile, profile: Profile) -> Shift:
     best = _refine(reference, named, shift_m, sign)
     if not best.correlation >= SURE:
         return Shift(math.nan, _reason_not_found(best.correlation))
-    return Shift(best.shift_m, note)
+    return Shift(shift_m if _drifts(placement, reference, named) else best.shift_m, note)
+
+
+def _drifts(placement: Placement, reference: Profile, profile: Profile) -> bool:
+    """Return whether an error of distance moves ``profile`` by more than half a sample.
+
+    Then no shift fits all of the road, and the lag at the beginning counts, as in `place`.
+    """
+    common_m = min(reference.length_m, profile.length_m)
+    return abs(placement.distance_scale - 1.0) * common_m > 0.5 * reference.interval_m
 
 
 def move(profile: Profile, shift: Shift) -> Profile:

@@ -152,3 +152,36 @@ def test_a_name_that_would_come_back_as_another_is_refused(tmp_path, name):
     profile = Profile(1.0, (ProfileTrack.of(name, [0.0, 1.0]),))
     with pytest.raises(InputError, match=r"cannot hold; write a \.csv"):
         ViewerText().write(profile, tmp_path / "run.txt")
+
+
+@pytest.mark.parametrize("far", [90.0, 990.0, 9_990.0, 99_990.0])
+def test_distances_of_15_digits_have_one_interval_wherever_their_decimals_end(tmp_path, far):
+    """As viewers write them: 99.9999991234567, then 100.000000123457."""
+    interval, count = 0.082020998001, 2500
+    places = far + interval * np.arange(count)
+    rows = "\n".join(f"{place:.15g}\t{k % 7}" for k, place in enumerate(places))
+    profile = read(tmp_path / "run.txt", f"a - Distance (ft)\ta_Full (in)\n{rows}\n")
+    assert profile.interval_m == pytest.approx(0.3048 * interval, rel=1e-12)
+    lost = "\n".join(row for k, row in enumerate(rows.split("\n")) if k != 1200)
+    with pytest.raises(InputError, match="off the interval"):
+        read(tmp_path / "run.txt", f"a - Distance (ft)\ta_Full (in)\n{lost}\n")
+
+
+def test_heights_without_a_unit_are_given_as_they_are_written(tmp_path):
+    path = tmp_path / "run.txt"
+    path.write_text(FEET.replace("_Full (in)", "_Full").replace("._Full (in)", "_Full"), "utf-8")
+    profile, along = ViewerText().read_unstated(path)
+    assert along == "ft"
+    np.testing.assert_array_equal(profile.track("left").elevation, [1.0, np.nan, 3.0])
+    path.write_text(FEET, "utf-8")
+    assert ViewerText().read_unstated(path) is None
+
+
+def test_of_a_long_name_the_end_is_kept_which_a_directory_can_hold(tmp_path):
+    name = f"{'Rt 76 EB run 1 ' * 5}_ODS1 (Profile 1)"
+    (tmp_path / "run.txt").write_text(f"{name} - Distance (m)\t{name}_Full (m)\n0\t1\n1\t2\n")
+    profile = profile_of(tmp_path / "run.txt")
+    assert name.endswith(profile.tracks[0].name)
+    assert profile.tracks[0].name.endswith("_ODS1 (Profile 1)")
+    format_of(tmp_path / "out").write(profile, tmp_path / "out")
+    assert profile_of(tmp_path / "out").tracks[0].name == profile.tracks[0].name

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.errors import InputError
+from floatref.measures.locating.placing import place
 from floatref.measures.locating.shift import Shift, find_shift, move
 from floatref.values.profile import Profile, ProfileTrack
 
@@ -103,3 +104,21 @@ def test_a_wheel_path_that_is_missing_is_refused(road) -> None:
     one = replace(road.run(), tracks=road.run().tracks[:1])
     with pytest.raises(InputError, match="right"):
         find_shift(road.reference(), one)
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    far_m=st.floats(-80.0, 80.0),
+    percent=st.floats(-1.0, 1.0),
+    noise=st.floats(0.0, 0.3),
+    seed=st.integers(0, 99),
+)
+def test_compare_and_certify_agree_on_the_place(roads, far_m, percent, noise, seed) -> None:
+    """`compare` places by `find_shift`, `certify` by `place`: within one sample, with any scale."""
+    road = roads(seed)
+    run = road.run(-BEFORE_M, 240.0, SAMPLE_M, 1.0 + percent / 100.0, noise=noise, seed=seed)
+    run = replace(run, start_m=far_m - BEFORE_M)
+    placement, shift = place(road.reference(), run), find_shift(road.reference(), run)
+    assert placement.found
+    assert shift.is_sure, shift.note
+    assert shift.placement_m == pytest.approx(placement.offset_m, abs=SAMPLE_M)
