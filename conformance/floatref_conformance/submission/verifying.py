@@ -8,6 +8,7 @@ from typing import Any
 from floatref.errors import InputError
 from floatref_conformance.checks.verdict import CaseResult, Outcome, verdict_on
 from floatref_conformance.errors import SuiteError
+from floatref_conformance.judge.runner import UNDESCRIBED
 from floatref_conformance.judge.waivers import NO_REASON
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
@@ -23,6 +24,7 @@ from floatref_conformance.submission.rejudging import (
     check_members,
     score_stored,
 )
+from floatref_conformance.submission.resembling import KEY, check_resemblance
 from floatref_conformance.submission.result_records import read_result
 from floatref_conformance.submission.retracing import (
     Departed,
@@ -33,8 +35,8 @@ from floatref_conformance.submission.signatures import SIGNATURES, check_signatu
 from floatref_conformance.submission.stored_answers import refuse_without
 
 RECORDED = "files:"
-TOLD_APART = ("verdict", "stream_checks")
-"""Keys of a report that are compared by rule, since checks of streams have no stored results."""
+TOLD_APART = ("verdict", "stream_checks", KEY)
+"""Keys of a report that are compared by rule: streams and probes have no stored results."""
 
 
 @dataclass(frozen=True)
@@ -125,6 +127,7 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
     for place, what in compare_reports(_comparable(report), _comparable(again)):
         verification.contradict(f"{REPORT}: {place}", what)
     _compare_verdict(report, again, verification)
+    _check_resemblance(repetition, report)
     count = sum(map(len, results.values()))
     verification.repeated.append(f"the report, figure by figure, from the results of {count} cases")
     streams = report.get("stream_checks")
@@ -135,6 +138,12 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
 
 def _comparable(report: Mapping[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in report.items() if key not in TOLD_APART}
+
+
+def _check_resemblance(repetition: Repetition, report: Mapping[str, Any]) -> None:
+    submission = repetition.submission
+    known = UNDESCRIBED if submission.fault else submission.describe()
+    check_resemblance(report, known, submission.suite, repetition.verification)
 
 
 def _compare_verdict(
