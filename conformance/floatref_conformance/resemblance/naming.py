@@ -37,8 +37,6 @@ def add_resemblance(result: RunResult, device: Device) -> RunResult:
     except (Exception, SystemExit) as error:
         text = " ".join(str(error).split())
         found = Resemblance(PROBES, note=f"not compared: {type(error).__name__}: {text}")
-    finally:
-        close(device)
     return replace(result, resemblance=found)
 
 
@@ -52,7 +50,10 @@ def name_flaws(result: RunResult, device: Device) -> Resemblance:
     if not getattr(device, "searchable", True):
         return Resemblance(PROBES, least=LEAST, note=NO_ANSWERS)
     description = describe_again(result)
-    features = measure_features(ask_probes(device, description))
+    try:
+        features = measure_features(ask_probes(device, description))
+    finally:
+        close(device)
     if not any(name.endswith(": length") for name in features):
         return Resemblance(PROBES, least=LEAST, features=features, note=NO_PROFILES)
     return name_by_features(features, description)
