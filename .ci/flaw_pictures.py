@@ -17,8 +17,7 @@ from floatref_conformance.devices.interface import RESPONSE
 from floatref_conformance.judge.exercise import describe
 from floatref_conformance.mutants.device import make
 from floatref_conformance.resemblance.answers import Answer, ask_probes
-from floatref_conformance.resemblance.catalogue import GOOD, FlawVector, read_vectors
-from floatref_conformance.resemblance.comparing import exceed, spread_of
+from floatref_conformance.resemblance.catalogue import FlawVector, find_range, read_vectors
 from floatref_conformance.resemblance.probes import PROBES
 
 FOLDER = Path(__file__).parents[1] / "docs" / "images" / "flaws"
@@ -43,12 +42,11 @@ class Drawn:
 
 def find_probe(flaw: FlawVector) -> str:
     """Return the probe on which a flaw exceeds good devices most, among those with a profile."""
-    kind = RESPONSE if RESPONSE in flaw.needs else "height"
-    spread = spread_of(read_vectors().good[name] for name in GOOD[kind])
+    good = find_range(read_vectors(), RESPONSE not in flaw.needs)
     beyond: dict[str, float] = {}
-    for name, value in exceed(flaw.features, spread).items():
+    for name, value in good.exceed(flaw.features).items():
         probe, _, what = name.partition(": ")
-        if flaw.features.get(f"{probe}: nothing") == 0.0 and what not in ("nothing",):
+        if flaw.features.get(f"{probe}: nothing") == 0.0 and what not in NO_PROFILE:
             beyond[probe] = beyond.get(probe, 0.0) + value**2
     return max(beyond, key=lambda probe: beyond[probe], default="road")
 
@@ -144,7 +142,9 @@ def write_svg(drawn: Drawn, title: str) -> str:
             f'width="{max(last - first, 1):.1f}" height="5" fill="#e0a100"/>'
         )
     lines += [_text(MARGIN, "start", f"{x0:.4g} m"), _text(WIDTH - MARGIN, "end", f"{x1:.4g} m")]
-    lines.append(_text(WIDTH / 2, "middle", f"{d.probe}; height of the picture {_length(high - low)}"))
+    lines.append(
+        _text(WIDTH / 2, "middle", f"{d.probe}; height of the picture {_length(high - low)}")
+    )
     return "\n".join([*lines, "</svg>\n"])
 
 

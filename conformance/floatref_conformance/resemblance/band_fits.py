@@ -13,13 +13,17 @@ TINY_M = 1e-9
 """Below this, in m, a signal is zero."""
 
 
-def waves_of(signal: FloatArray, band_m: tuple[float, float]) -> Waves:
-    """Return the waves of ``signal`` within ``band_m``, in m, after a Hann window; shape (k,)."""
+def waves_of(signal: FloatArray, band_m: tuple[float, float], lag_m: float = 0.0) -> Waves:
+    """Return the waves of ``signal`` within ``band_m``, in m, after a Hann window; shape (k,).
+
+    They are those of the signal moved forward by ``lag_m``, which takes such a lag away.
+    """
     window = np.hanning(signal.size)
     waves = np.fft.rfft((signal - signal.mean()) * window)
     number = np.fft.rfftfreq(signal.size, STEP_M)
     inside = (number > 1.0 / band_m[1]) & (number <= 1.0 / band_m[0])
     # So that the sum of their squares is the mean square of the signal.
+    waves = waves * np.exp(2j * np.pi * number * lag_m)
     return np.asarray(waves[inside] * np.sqrt(2.0 / (signal.size * float(np.sum(window**2)))))
 
 

@@ -15,7 +15,7 @@ from floatref_conformance.checks.likeness import Likeness
 from floatref_conformance.devices.interface import RESPONSE, Description
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.mutants.flaws import list_flaws
-from floatref_conformance.resemblance.comparing import LEAST, MOST_FLAWS, compare, spread_of
+from floatref_conformance.resemblance.comparing import LEAST, MOST_FLAWS, GoodRange, compare
 from floatref_conformance.resemblance.features import Features
 from floatref_conformance.resemblance.probes import PROBES
 
@@ -100,6 +100,12 @@ def write_vectors(vectors: Vectors) -> str:
     return f'{start},\n "flaws": [\n{lines}\n ],\n "good": {{\n{good}\n }}\n}}\n'
 
 
+def find_range(vectors: Vectors, has_height: bool) -> GoodRange:
+    """Return the range of features of good devices, with a height sensor or without one."""
+    names = GOOD["height" if has_height else RESPONSE]
+    return GoodRange.of(vectors.good[name] for name in names)
+
+
 def find_nearest(
     features: Features, description: Description, vectors: Vectors | None = None
 ) -> tuple[Likeness, ...]:
@@ -115,12 +121,11 @@ def rank_flaws(
     features: Features, description: Description, vectors: Vectors
 ) -> tuple[Likeness, ...]:
     """Return all flaws that the device can have, the nearest first."""
-    kind = "height" if description.has_height else RESPONSE
-    spread = spread_of(vectors.good[name] for name in GOOD[kind] if name in vectors.good)
+    good = find_range(vectors, description.has_height)
     names = {flaw.mutant: flaw.name for flaw in list_flaws()}
     able = set(description.capabilities)
     found = [
-        Likeness(f.mutant, names[f.mutant], round(compare(features, f.features, spread), 2) + 0.0)
+        Likeness(f.mutant, names[f.mutant], round(compare(features, f.features, good), 2) + 0.0)
         for f in vectors.flaws
         if set(f.needs) <= able and (RESPONSE in f.needs) != description.has_height
     ]

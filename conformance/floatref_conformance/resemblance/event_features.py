@@ -28,6 +28,8 @@ def list_event(path: ComparedPath, places_m: tuple[float, ...]) -> Iterator[Feat
         if where.sum() > 2:
             yield f"error {name}", _spread(path.error, where), 0.001
             yield f"flagged {name}", float(path.flagged[where].mean()), 0.1
+    reached = path.near(places_m, FAR_M) & (path.flagged < 0.5)
+    yield "error of valid", _spread(path.error, reached), 0.001
     yield "step", _step(path, places_m), 0.002
     yield "short waves", _short_waves(path, path.near(places_m, 2 * NEAR_M)), 0.1
     yield "straight", _straight(path), 0.1

@@ -33,10 +33,8 @@ def list_parked(path: ComparedPath) -> Iterator[Feature]:
     if truth.size < 100:
         return
     band = (0.5, 12.0)
-    factors, _ = fit_real(waves_of(found, band), (waves_of(truth, band),))
     lag = find_lag(found, truth, 2.0)
-    moved = np.interp(np.arange(found.size) + lag / 0.1, np.arange(found.size), found)
-    factors, _ = fit_real(waves_of(moved, band), (waves_of(truth, band),))
+    factors, _ = fit_real(waves_of(found, band, lag), (waves_of(truth, band),))
     yield "plate", float(factors[0]) - 1.0, 0.02
     yield "plate late", lag, 0.02
 

@@ -18,7 +18,8 @@ Feature = tuple[str, float, float]
 """Name, value, and the smallest difference that counts, in the unit of the value."""
 BANDS_M = ((0.8, 2.0), (2.0, 6.0), (6.0, 20.0), (20.0, 50.0), (50.0, 100.0))
 GAIN_BAND_M, MOTION_BAND_M = (1.5, 12.0), (3.0, 30.0)
-MOST_LAG_M = 2.0
+MOST_LAG_M, LONG_M = 2.0, 20.0
+"""Largest lag that is searched, and the waves whose phase is that of filters, in m."""
 
 
 def list_waves(path: ComparedPath) -> Iterator[Feature]:
@@ -27,11 +28,10 @@ def list_waves(path: ComparedPath) -> Iterator[Feature]:
     Both are of the profile moved by its lag, which is a feature of its own.
     """
     lag = find_lag(path.found, path.truth, MOST_LAG_M)
-    moved = np.interp(path.distance_m + lag, path.distance_m, path.found)
     for number, band in enumerate(BANDS_M):
         # The phase of long waves is that of filters, and of the profile as it is.
-        found = path.found if band[0] > 10 * MOST_LAG_M - 1 else moved
-        factor, left = fit_complex(waves_of(found, band), waves_of(path.truth, band))
+        found = waves_of(path.found, band, 0.0 if band[0] >= LONG_M else lag)
+        factor, left = fit_complex(found, waves_of(path.truth, band))
         yield f"gain {number}", factor.real - 1.0, 0.004
         yield f"phase {number}", factor.imag, 0.004
         yield f"left {number}", left, 0.02
@@ -55,9 +55,8 @@ def _grow(path: ComparedPath) -> float:
 def list_gain(path: ComparedPath) -> Iterator[Feature]:
     """Yield scale, lag in s, and what is unexplained of waves of middle length."""
     lag = find_lag(path.found, path.truth, MOST_LAG_M)
-    moved = np.interp(path.distance_m + lag, path.distance_m, path.found)
-    found, truth = waves_of(moved, GAIN_BAND_M), waves_of(path.truth, GAIN_BAND_M)
-    factor, left = fit_complex(found, truth)
+    found, truth = (path.found, GAIN_BAND_M, lag), (path.truth, GAIN_BAND_M)
+    factor, left = fit_complex(waves_of(*found), waves_of(*truth))
     yield "gain", factor.real - 1.0, 0.004
     yield "left", left, 0.03
     yield "late", lag / max(float(np.median(path.speed_mps)), 0.1), 0.001

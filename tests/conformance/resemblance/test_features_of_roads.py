@@ -1,4 +1,4 @@
-"""What is put into a profile comes out as a feature: scale, lag, motion of the body, the other path."""
+"""What is put into a profile comes out as a feature: scale, lag, motion, the other wheel path."""
 
 import numpy as np
 import pytest

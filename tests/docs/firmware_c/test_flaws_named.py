@@ -61,7 +61,7 @@ FLAWS = {
         ],
     ),
 }  # fmt: skip
-"""By the mutant that has the same flaw: a check that fails it, and what is changed in which file."""
+"""By the mutant with the same flaw: a check that fails it, and what is changed in which file."""
 
 
 def build(folder, changes):
