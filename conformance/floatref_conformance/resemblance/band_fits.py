@@ -67,15 +67,15 @@ def slope_of(signal: FloatArray) -> FloatArray:
 def find_lag(found: FloatArray, truth: FloatArray, most_m: float) -> float:
     """Return by how much ``found`` lies behind ``truth``, in m, within ``most_m``.
 
-    The slopes are correlated, and the largest correlation is interpolated by a parabola. 0 for
-    signals without a slope.
+    The slopes are correlated, and the largest correlation of either sign, since a profile may be
+    upside down, is interpolated by a parabola. 0 for signals without a slope.
     """
     one, other = (slope_of(z - z.mean()) for z in (found, truth))
     size = 2 * max(one.size, 2)
     cross = np.fft.irfft(np.fft.rfft(one, size) * np.conj(np.fft.rfft(other, size)), size)
     count = round(most_m / STEP_M)
-    around = np.concatenate((cross[-count:], cross[: count + 1]))
-    if float(np.abs(around).max()) < TINY_M**2 * one.size:
+    around = np.abs(np.concatenate((cross[-count:], cross[: count + 1])))
+    if float(around.max()) < TINY_M**2 * one.size:
         return 0.0
     best = int(np.argmax(around))
     if not 0 < best < around.size - 1:

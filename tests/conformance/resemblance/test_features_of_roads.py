@@ -20,7 +20,7 @@ def values(features):
     return {name: value for name, value, _ in features}
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(st.floats(-0.5, 2.0), st.floats(-1.5, 1.5))
 def test_scale_and_lag_are_found_one_beside_the_other(gain, lag_m):
     def change(x, truth, body):
@@ -34,7 +34,7 @@ def test_scale_and_lag_are_found_one_beside_the_other(gain, lag_m):
         assert found["left"] < 0.1
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(st.floats(-1.0, 1.0), st.floats(-0.05, 0.05), st.integers(0, 99))
 def test_the_motion_of_the_body_is_found_with_its_delay(share, late_s, seed):
     def change(x, truth, body):
