@@ -16,9 +16,10 @@ SECTION_M = 160.9
 BEGINS_M = 60.0
 
 # Timing never decides a test: a loaded machine takes as long as it takes. Every run draws anew.
-settings.register_profile(
-    "floatref", settings(), deadline=None, suppress_health_check=[HealthCheck.too_slow]
-)
+patient = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+# Where a test states no number of its own: a few for every change, many for the night.
+settings.register_profile("floatref", patient, max_examples=30)
+settings.register_profile("floatref-nightly", patient, max_examples=200)
 settings.load_profile("floatref")
 
 

@@ -200,6 +200,7 @@ STAGES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted({*golden.names()} - {"kalman-smoother"}))
 def test_the_stages_of_the_sdk_make_of_a_vector_what_the_reference_makes(name):
     vector = golden.read(name)
@@ -218,6 +219,7 @@ def test_a_vector_is_small_and_keeps_the_schema(name):
     assert len((Path(golden.__file__).parent / f"{name}.json").read_bytes()) < 30_000
 
 
+@pytest.mark.slow
 def test_the_vectors_are_what_the_reference_makes_today(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / ".ci"))
     made = dict(importlib.import_module("golden").documents())

@@ -101,6 +101,7 @@ def test_a_device_ends_with_a_judge_that_is_killed(tmp_path: Path) -> None:
         end(found)
 
 
+@pytest.mark.slow
 def test_the_next_run_kills_what_a_device_left(tmp_path: Path) -> None:
     """The device forked, and its child left the session: no system ends that by itself."""
     pids = tmp_path / "pids"
@@ -112,6 +113,7 @@ def test_the_next_run_kills_what_a_device_left(tmp_path: Path) -> None:
         end(found)
 
 
+@pytest.mark.slow
 def test_the_devices_of_a_living_judge_stay(tmp_path: Path) -> None:
     pids = tmp_path / "pids"
     pids.mkdir()

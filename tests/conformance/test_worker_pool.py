@@ -53,6 +53,7 @@ def test_results_come_in_order_and_end():
         assert list(results) == [4, 9, 16]
 
 
+@pytest.mark.slow
 @pytest.mark.posix
 def test_no_thread_fails_where_processes_end_before_the_pool(monkeypatch):
     """Under load they end first, and the pool's thread finds them missing."""

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 import floatref
 from floatref.live import bounds
@@ -46,6 +47,7 @@ def test_the_figures_of_the_text_are_those_of_the_code():
     assert int(first) == round(8 * 5 * 16_000 * most.longest_s / 1e6, -1)
 
 
+@pytest.mark.slow
 def test_the_example_runs():
     (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.M | re.S)
     times = np.arange(30_000) / 1000.0

@@ -60,6 +60,7 @@ def test_every_place_of_every_command_is_attacked() -> None:
     assert attacked == set(named_places()) - others
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["pipe", "loop"])
 @pytest.mark.parametrize("key", [key for key in READ if not key.startswith(APART)])
 def test_what_is_no_file_is_refused_in_one_line(

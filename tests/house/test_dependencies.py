@@ -65,6 +65,7 @@ def imported(path: Path) -> Iterator[str]:
             yield node.module.partition(".")[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("room", ["sdk", "adapters", "reference_impl", "conformance"])
 def test_a_package_imports_what_it_may(room: str) -> None:
     for path in (ROOT / room).rglob("*.py"):

@@ -131,6 +131,7 @@ def found() -> set[str]:
     }
 
 
+@pytest.mark.slow
 def test_files_are_opened_through_the_door() -> None:
     assert found() == set(ALLOWED)
 

@@ -8,6 +8,8 @@ import ast
 import re
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 OF_POSIX = re.compile(
     r"fcntl|import resource|os\.fork|os\.kill|SIGKILL|symlink_to|os\.symlink|preexec_fn|"
@@ -31,6 +33,7 @@ def test_what_windows_lacks_is_marked() -> None:
     assert not unmarked
 
 
+@pytest.mark.slow
 def test_code_never_takes_the_encoding_of_the_system() -> None:
     wrong = []
     for path in CODE:

@@ -169,6 +169,7 @@ def test_a_table_has_every_sample_at_its_time(
     assert native.streams[0].count <= np.unique(every).size + 1
 
 
+@pytest.mark.slow
 def test_times_of_a_rate_with_finite_decimals_are_exact(tmp_path: Path) -> None:
     clock = UniformClock(Fraction(16000), 0.5)
     channel = Channel.of("height", np.arange(100_000.0), clock)

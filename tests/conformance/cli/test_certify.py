@@ -80,12 +80,14 @@ def test_pass_is_exit_0(call: Callable[..., Result]) -> None:
     assert result.stderr == ""
 
 
+@pytest.mark.slow
 def test_fail_is_exit_1(call: Callable[..., Result]) -> None:
     result = call("runs", "--min-accuracy", 1.0)
     assert result.exit_code == 1
     assert "FAIL" in result.stdout
 
 
+@pytest.mark.slow
 def test_incomplete_is_exit_4(call: Callable[..., Result]) -> None:
     result = call("runs", "--runs", 3)
     assert result.exit_code == 4
@@ -165,6 +167,7 @@ def test_every_limit_is_an_option(folder: Path, option: str) -> None:
     assert changed == {**limits, name: expected}
 
 
+@pytest.mark.slow
 def test_a_class_brings_its_limits(call: Callable[..., Result]) -> None:
     sheet = document(call("runs", "--class", "reference", "--json"))
     assert sheet["class"] == "reference"
@@ -194,6 +197,7 @@ def test_tests_at_rest(call: Callable[..., Result], folder: Path) -> None:
     assert named["stationary"][0]["source"].endswith("rest@1:2")
 
 
+@pytest.mark.slow
 def test_a_plan_says_it_all(folder: Path) -> None:
     (folder / "whole.toml").write_text(
         'profiler = "Van 3"\n[[sections]]\nname = "road"\nreference = "reference"\n'

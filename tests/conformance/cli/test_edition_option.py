@@ -44,6 +44,7 @@ def words_of(command, folder):
     }.get(command, [])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize(("options", "edition"), [((), EDITION), (("--edition", FIRST), FIRST)])
 def test_a_command_takes_the_checks_of_the_edition_else_of_the_last(
@@ -65,6 +66,7 @@ def test_an_unknown_edition_is_exit_2_and_the_known_ones_are_named(asked, tmp_pa
     assert asked == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("run_by", "kept_of"), [(FIRST, SECOND), (SECOND, FIRST)])
 def test_a_run_skips_kept_cases_of_the_other_edition_and_has_no_verdict(
     run_toy, keep, devices, tmp_path, run_by, kept_of

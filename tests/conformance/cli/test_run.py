@@ -38,6 +38,7 @@ def test_a_selection_that_passes_is_incomplete_and_says_what_was_not_run(run_toy
     assert "not run and not judged" in answer.output
 
 
+@pytest.mark.slow
 def test_a_failure_is_exit_1_with_reason_and_how_to_reproduce_it_last(run_toy):
     answer = run_toy("bad", "--seed", 3)
     assert answer.exit_code == 1

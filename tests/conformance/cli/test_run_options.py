@@ -113,6 +113,7 @@ def test_an_unusable_waiver_is_told_before_anything_runs(run_toy, waive, devices
     assert devices["good"].seen == []
 
 
+@pytest.mark.slow
 def test_a_kept_case_that_still_fails_makes_a_pass_a_failure(run_toy, keep, tmp_path):
     assert run_toy("clipping", "--report", tmp_path).exit_code == 4
     kept = keep(tmp_path)

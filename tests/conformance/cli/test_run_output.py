@@ -10,6 +10,7 @@ from floatref_conformance.judge import trial
 from floatref_conformance.render.report import JsonOutput
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("device", "code"), [("good", 4), ("bad", 1), ("choosy", 4)])
 def test_json_is_the_document_of_the_report_and_all_else_is_on_stderr(
     run_toy, tmp_path, device, code
@@ -66,6 +67,7 @@ def test_an_object_that_nobody_reads_is_exit_3_below_the_reports(run_toy, monkey
     assert "no report: BrokenPipeError" in answer.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("device", ["good", "bad"])
 def test_verbose_adds_the_details_of_every_check_and_takes_nothing_away(run_toy, device):
     short, whole = (run_toy(device, *words).stdout for words in ((), ("--verbose",)))

@@ -47,6 +47,7 @@ def vendor(sound, tmp_path, monkeypatch):
         close(one)
 
 
+@pytest.mark.slow
 def test_an_object_is_run_in_another_process_and_may_print(vendor, recording):
     device = vendor()
     description = describe(device)
@@ -120,6 +121,7 @@ def test_an_object_that_cannot_be_made_is_a_fault_of_start(vendor, more, words):
         describe(device)
 
 
+@pytest.mark.slow
 def test_it_is_closed_at_the_end_if_it_can_be(vendor, tmp_path):
     device = vendor("Vendor.close = lambda self: open('closed', 'w').close()")
     describe(device)

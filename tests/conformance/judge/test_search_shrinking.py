@@ -70,6 +70,7 @@ def test_only_what_the_failure_needs_remains(names, needed):
     assert len(tried) == len(set(tried)) <= 3 * len(names)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=100)
 @given(NAMES, st.lists(NAMES.filter(bool), min_size=1, max_size=3))
 def test_of_several_failures_one_remains_and_nothing_can_go(names, reasons):

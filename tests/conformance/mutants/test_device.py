@@ -114,6 +114,7 @@ def test_a_mutant_that_remembers_begins_with_nothing(tmp_path):
     assert not np.array_equal(*delivered)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("pipeline", "elevations"), [(RECOMMENDED, in_time()), (SPATIAL, over_distance())]
 )

@@ -28,6 +28,7 @@ def same(ground: Ground) -> bool:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wander", [{}, {"wander_m": 0.1, "wander_within_m": 0.02}])
 def test_the_tyres_keep_their_road_and_the_line_lies_about_it(wander: dict[str, float]) -> None:
     point, wide = (replace(s, **wander) for s in (POINT, WIDE))
@@ -53,6 +54,7 @@ def test_a_road_alike_sideways_is_read_as_by_a_point(road: str) -> None:
     assert same(ground_of(replace(WIDE, road=road), 60.0))
 
 
+@pytest.mark.slow
 def test_what_is_as_wide_as_the_road_is_read_whole() -> None:
     features = {"bump_mm": 20.0, "bump_at_m": 40.0, "joint_mm": 3.0, "crown_mm": 50.0}
     features |= {"crown_at_m": 45.0, "patch_mm": 10.0, "patches_per_km": 100.0}
@@ -62,6 +64,7 @@ def test_what_is_as_wide_as_the_road_is_read_whole() -> None:
     assert added[0] == pytest.approx(added[1], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_ideal_sensors_read_the_bridged_height_and_it_is_the_truth() -> None:
     point, wide = simulate(POINT), simulate(WIDE)
     seen, other = (s.motion.tracks["left"] for s in (wide, point))
@@ -86,6 +89,7 @@ def test_a_given_road_is_read_across_too() -> None:
         assert np.array_equal(found.range_m, own.motion.tracks[track].range_m)
 
 
+@pytest.mark.slow
 def test_a_measured_surface_is_read_as_it_is_measured(tmp_path: Path) -> None:
     """A crack of 3 mm beside the line's middle does not count: its mean is 0.3 mm."""
     pycrg = pytest.importorskip(

@@ -50,6 +50,7 @@ def check_results(draw, ids=tuple(IDS)):
     )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(st.lists(check_results(), min_size=1, max_size=15))
 def test_eighty_columns_hold_the_whole_words_of_a_wide_terminal(checks):
@@ -57,6 +58,7 @@ def test_eighty_columns_hold_the_whole_words_of_a_wide_terminal(checks):
     assert words(checks, 80) == words(checks, 250)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(
     st.lists(check_results(ids=["a-check-with-a-very-long-name-of-a-vendor", "b"]), min_size=1),
@@ -66,6 +68,7 @@ def test_no_word_is_split_at_any_width(checks, width):
     assert words(checks, width) == words(checks, 300)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(st.lists(check_results(), min_size=1, max_size=15))
 def test_a_wide_terminal_has_one_line_for_each_check(checks):

@@ -124,6 +124,7 @@ def test_a_failure_shows_numbers_picture_and_commands(page, check, result, stopp
     assert f"{sentence} stop at 316 m" in words
 
 
+@pytest.mark.slow
 def test_what_the_check_scored_is_shaded_and_nothing_where_it_did_not_say(check, result):
     def shaded(style, **changes):
         text = as_html(result(check(Outcome.FAIL, **changes)))
@@ -176,6 +177,7 @@ def test_what_a_check_asks_is_told_with_its_limits_and_its_drawing(page, result,
     assert len(found.all("svg")) == len(suite_checks)
 
 
+@pytest.mark.slow
 def test_the_report_explains_the_checks_of_its_run_and_replaces_an_older_one(
     tmp_path, check, result, suite_checks
 ):

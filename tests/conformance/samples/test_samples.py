@@ -58,6 +58,7 @@ def test_a_seed_draws_one_sample_and_another_seed_another(kind, small, tmp_path)
     assert not {name for name in alike if name.endswith("height.f64")}
 
 
+@pytest.mark.slow
 def test_the_plan_names_what_is_there(small, tmp_path):
     done = call("certification", "--out", tmp_path / "c")
     command = done.stdout.splitlines()[-1]
@@ -69,6 +70,7 @@ def test_the_plan_names_what_is_there(small, tmp_path):
     assert len(plan.distance.readings_m) == certification.READINGS
 
 
+@pytest.mark.slow
 def test_the_network_has_one_recording_that_cannot_be_read(small, tmp_path):
     call("network", "--out", tmp_path / "n")
     read_recording(tmp_path / "n" / "north" / "run-1")

@@ -39,6 +39,7 @@ def test_there_are_twenty_kinds_at_least():
     assert len({t.name for t in TAMPERINGS}) == len(TAMPERINGS) >= 20
 
 
+@pytest.mark.slow
 @every
 def test_checksums_show_it_until_they_are_renewed(archive, tampering):
     changed = archive("clipping")

@@ -62,6 +62,7 @@ def test_the_cells_to_which_the_slip_is_fitted_are_marked_and_not_predicted(hand
     assert made["slip_percent_per_g"] == 2.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cross_correlation", [0.87, -0.25])
 def test_the_whole_table_fits_a_terminal_of_80_columns(hand_table, cross_correlation):
     """The numbers are larger than the largest of print, 3299.8 m/km and 13139.7 %."""

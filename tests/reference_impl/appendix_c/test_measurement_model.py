@@ -17,6 +17,7 @@ INPUTS = st.tuples(*[RATE] * 6).map(np.array)
 LEVERS = st.tuples(*[st.floats(-3, 3)] * 3).map(np.array)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(C.7)", "(C.8)", "(C.9)", "(6.14)")
 @settings(deadline=None, max_examples=100)
 @given(x=STATES, u=INPUTS, lever=LEVERS)

@@ -53,6 +53,7 @@ def test_one_after_the_other_gives_the_same(seed: int, nm: int, missing: int) ->
     assert normalized(nu, S) == pytest.approx(np.array(found), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_of_drawn_states_and_readings_the_mean_is_one() -> None:
     z = []
     for seed in range(2000):

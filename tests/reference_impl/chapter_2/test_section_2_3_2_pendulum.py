@@ -103,6 +103,7 @@ def test_ideal_sensors_leave_the_profile_flat() -> None:
     assert worst_section(z) < 1e-3
 
 
+@pytest.mark.slow
 def test_slower_vehicles_suffer_more() -> None:
     slow, fast = braking_from(12.0), braking_from(22.0)
     roughness = [worst_section(profile(measured(r), r.h_b, r)) for r in (slow, fast)]

@@ -17,6 +17,7 @@ def test_the_weights_show_neither_place_nor_speed(dt):
     assert w @ t**2 == pytest.approx(2.0)
 
 
+@pytest.mark.slow
 @given(a=st.floats(-5, 5), v=st.floats(0, 30), rate=st.sampled_from([60, 200, 500]))
 def test_a_constant_acceleration_is_found_within_the_run(a, v, rate):
     t = np.arange(2 * rate) / rate

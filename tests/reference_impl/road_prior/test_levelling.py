@@ -48,6 +48,7 @@ def test_a_brake_on_a_hill_is_level_to_the_last_digit(theta: float, v: float, a:
     assert level(steady, HOW) == pytest.approx(np.zeros(200), abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.20)", "(6.27)", "(6.28)")
 @laws
 @given(v=st.floats(5.0, 30.0), yaw=st.floats(-0.3, 0.3), phi=ANGLES)

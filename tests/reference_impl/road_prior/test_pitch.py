@@ -34,6 +34,7 @@ def test_samples_on_a_straight_line_change_nothing(f_p: float, zeta: float, seed
     assert response[::2] == pytest.approx(pitch_response(a_x, t, f_p, zeta), abs=1e-10)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(f_p=FREQUENCY, zeta=st.floats(0.2, 0.9), f=st.floats(0.2, 5.0))
 def test_a_sinusoid_is_amplified_as_the_oscillator_does(f_p: float, zeta: float, f: float) -> None:

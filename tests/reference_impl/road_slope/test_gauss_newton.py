@@ -118,6 +118,7 @@ def test_a_run_gives_back_the_pitch_and_the_constants_it_was_drawn_with(
     assert abs(found[0] - found[19] - truth.pitch[0] + truth.pitch[19]) < 4.5 * sigma
 
 
+@pytest.mark.slow
 def test_the_covariance_is_the_inverse_of_the_normal_matrix(drawn: Any, stopping: Stopping) -> None:
     stretch, truth = drawn(stopping(C, K=12), 1)
     vector = as_vector(truth)

@@ -64,6 +64,7 @@ def rms(made: Simulation, result: Result, begin_m: float, end_m: float) -> float
     return float(np.sqrt(np.mean(errors(made, result.profile)[inside] ** 2)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", ["temporal-basic", "temporal-adaptive-hpf-spatial-backward"])
 def test_the_response_takes_the_place_of_a_line(drive: Simulation, pipeline: str) -> None:
     recording = dropped(drive.recording)

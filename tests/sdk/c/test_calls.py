@@ -78,14 +78,14 @@ def run(made, signals, call, outputs, edges):
     return b"".join(np.concatenate(each).tobytes() for each in zip(*found, strict=True))
 
 
+@pytest.mark.slow
 @PRECISIONS
 @OBJECTS
 @laws
 @given(seed=st.integers(0, 2**32 - 1), cuts=st.lists(st.integers(0, LENGTH), max_size=4))
 def test_any_split_gives_the_same_bits(build, precision, kind, call, inputs, outputs, seed, cuts):
     library, signals = build(precision), drawn(inputs, seed)
-    # One precision rounds the samples before they are split.
-    signals = [library.array(x) for x in signals]
+    signals = [library.array(x) for x in signals]  # One precision rounds before they are split.
     whole = run(library.make(kind, **REQUIRED[kind]), signals, call, outputs, [0, LENGTH])
     edges = [0, *sorted(cuts), LENGTH]
     assert run(library.make(kind, **REQUIRED[kind]), signals, call, outputs, edges) == whole

@@ -114,6 +114,7 @@ def queue(seconds):
     return Run(STANDARD_GRAVITY + noise[0], 0.3 + noise[1], counts)
 
 
+@pytest.mark.slow
 def test_a_queue_that_outlasts_a_window_is_fitted_in_several_or_flagged(double):
     found = level(made_of(double, Stop()), queue(330.0))
     outcome, share = found["outcome"], found["share"]
@@ -123,6 +124,7 @@ def test_a_queue_that_outlasts_a_window_is_fitted_in_several_or_flagged(double):
     assert (np.diff(found["first"]) == 2).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("limit", [{"fit__most_width": 24}, {"fit__most_travel_m": 200.0}])
 def test_a_stretch_without_room_is_flagged_or_split(double, limit):
     stop = Stop(speed_mps=20.0, brake_mps2=1.5)
@@ -149,6 +151,7 @@ def test_without_a_brake_nothing_is_added_and_bins_are_ready_within_60_m(double)
     assert len(finish(made)) > 0
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=4)
 @given(cuts=st.lists(st.integers(0, 5000), max_size=5), data=st.integers(0, 5000))
 @example(cuts=[1, 2, 3], data=4700)

@@ -76,6 +76,7 @@ def test_a_stretch_has_the_fit_of_the_sdk(double, stop):
     np.testing.assert_allclose(ours, 1.0, rtol=VARIANCE)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=4)
 @given(dirt=st.integers(0, 2**64 - 1), offset=st.integers(0, 3))
 def test_memory_keeps_nothing_from_call_to_call(double, single, dirt, offset):
@@ -112,6 +113,7 @@ def test_pieces_without_three_nodes_are_too_short(double, count):
     assert_not_levelled(fit_in_c(double, config, bins), TOO_SHORT)
 
 
+@pytest.mark.slow
 def test_a_body_that_something_else_moves_is_not_levelled(double):
     drive, config = drive_of(Stop()), config_of(double, Stop())
     (pieces,) = find_stretches(drive)

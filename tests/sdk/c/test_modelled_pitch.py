@@ -56,6 +56,7 @@ def assert_same(found, run, stop, rate):
     return expected
 
 
+@pytest.mark.slow
 @fewer
 @given(stop=STOPS, rate=st.sampled_from([100, 160, 200, 250]))
 @example(stop=Stop(lever_m=0.3), rate=200)

@@ -54,6 +54,7 @@ def usual_in_c(library, values):
     return found
 
 
+@pytest.mark.slow
 @laws
 @given(
     seed=st.integers(0, 2**32 - 1),

@@ -78,6 +78,7 @@ def in_c(library, counts, causes, edges, every):
     return points.tolist()
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(
     seed=st.integers(0, 2**32 - 1),

@@ -33,6 +33,7 @@ def test_record_table_and_picture(folder, ran):
     assert f"{kinds['height']['mean_nis']:.3f}" in result.output
 
 
+@pytest.mark.slow
 def test_json_has_the_record_and_the_place_of_the_picture(folder, reported):
     report = reported("process", folder / "run", "--out", folder / "p.csv", *PIPELINE)
     assert "innovations" not in report

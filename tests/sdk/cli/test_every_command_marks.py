@@ -163,6 +163,7 @@ def test_nothing_is_stated_of_a_command_that_is_gone() -> None:
     assert set(CHECKS) <= set(COMMANDS)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", HELD)
 def test_its_figures_have_a_mark(command: str) -> None:
     check = CHECKS[command]

@@ -32,6 +32,7 @@ def folder(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_a_profile_directory_with_provenance(folder, ran):
     result = ran("process", folder / "run", "--out", folder / "profile")
     profile = read_profile(folder / "profile")

@@ -83,6 +83,7 @@ def is_marked(line: str) -> bool:
     return line.split()[1] == "*" or " * " in line
 
 
+@pytest.mark.slow
 @FEW
 @given(SEEDS, SPANS, SPANS)
 def test_iri_gives_the_figures_of_the_right_road_and_marks_the_others(
@@ -107,6 +108,7 @@ def test_iri_gives_the_figures_of_the_right_road_and_marks_the_others(
     assert ("\n* not all points are valid" in text) == any(map(is_marked, shown))
 
 
+@pytest.mark.slow
 @FEW
 @given(SEEDS, SPANS, SPANS)
 def test_compare_compares_what_is_valid_in_both(

@@ -66,6 +66,7 @@ def test_what_is_kept_goes_into_the_next_run(runs: Path, tmp_path: Path, ran) ->
     assert {name: profile.settings[name] for name in written} == written
 
 
+@pytest.mark.slow
 def test_the_table_has_a_line_for_every_run(runs: Path, tmp_path: Path, invoke) -> None:
     result = invoke("vehicle", runs / "first", runs / "second", "--out", tmp_path / "v.json")
     lines = [line for line in result.stdout.splitlines() if line]

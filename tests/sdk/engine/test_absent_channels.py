@@ -68,6 +68,7 @@ def hold(recording: Recording, absent: set[str], make) -> None:
             assert recording.find(channel, track) is not None, (name, channel, track)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(st.data())
 def test_the_choices_need_no_absent_channel(whole: Recording, data: st.DataObject) -> None:

@@ -52,6 +52,7 @@ def test_a_missing_distance_is_read_between_its_neighbours(steady):
     assert np.isnan(distance_at(steady(distance=np.full(4000, np.nan)), 1.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", ["temporal-basic", "spatial-hpf", "road-prior-smoother"])
 def test_the_points_of_a_placed_run_are_multiples_of_the_interval(steady, pipeline):
     recording = shifted(steady(seconds=10.0), 7.013)

@@ -42,6 +42,7 @@ def asked(gaps: FloatArray, profile: Profile) -> DropOut:
     return DropOut(RECORDING, profile, {"main": gaps}, lambda pipeline, settings=None: profile)
 
 
+@pytest.mark.slow
 @given(
     begin=st.integers(20, 300),
     length=st.integers(1, 15),

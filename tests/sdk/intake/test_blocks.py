@@ -142,6 +142,7 @@ def test_time_stamps_of_a_constant_rate_are_that_rate(steady):
     assert source_of(steady(vertical_specific_force=own, **shifted)).length == 4000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate", [1000.0, 16_000.0])
 @pytest.mark.parametrize("hole_s", [0.02, 0.7183])
 def test_a_hole_between_time_stamps_of_an_accelerometer_is_a_gap(steady, rate, hole_s):

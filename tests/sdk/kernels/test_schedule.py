@@ -26,6 +26,7 @@ def printed(speed, low, wavelength, transition, steepness):
     return (low + np.longdouble(speed) / np.longdouble(wavelength) * power) / (1 + power)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(5.3)")
 @FEW
 @given(

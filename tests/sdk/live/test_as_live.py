@@ -66,6 +66,7 @@ def test_no_joint_is_rougher_than_the_sigma_permits(steady):
     assert max(found) < 0.1 * allowed
 
 
+@pytest.mark.slow
 def test_stops_of_any_length_give_the_same_points(drive):
     sizes = []
     for stood_s in (1.0, 60.0, 10_800.0):

@@ -54,6 +54,7 @@ def hours(count):
         yield {FORCE: Piece(noise), HEIGHT: Piece(noise), DISTANCE: Piece(travelled)}
 
 
+@pytest.mark.slow
 def test_no_more_samples_are_held_than_stated_over_a_day(following):
     most = 0
     for pieces in hours(24.0):

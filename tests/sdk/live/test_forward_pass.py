@@ -45,6 +45,7 @@ def joined(points, state):
     return numbers, np.concatenate(elevation), np.concatenate(valid)
 
 
+@pytest.mark.slow
 def test_every_provisional_point_is_there_a_tick_after_its_samples(recording, pieces):
     distance = recording.channel("distance")
     for newest_s, points in streamed(recording, pieces, most_s=1.0):
@@ -54,6 +55,7 @@ def test_every_provisional_point_is_there_a_tick_after_its_samples(recording, pi
             assert own[-1].distance_m[-1] > reached_m - INTERVAL_M
 
 
+@pytest.mark.slow
 def test_each_is_replaced_by_its_final_point(recording, pieces):
     points = [p for _, found in streamed(recording, pieces) for p in found]
     numbers, elevation, valid = joined(points, State.PROVISIONAL)
@@ -70,6 +72,7 @@ def test_each_is_replaced_by_its_final_point(recording, pieces):
     assert all(p.tracks[0].sigma is None for p in points if p.state is State.PROVISIONAL)
 
 
+@pytest.mark.slow
 def test_no_point_is_valid_near_a_stop(recording, pieces):
     points = [p for _, found in streamed(recording, pieces) for p in found]
     numbers, _, valid = joined(points, State.PROVISIONAL)
@@ -78,6 +81,7 @@ def test_no_point_is_valid_near_a_stop(recording, pieces):
     assert not valid[near].any()
 
 
+@pytest.mark.slow
 def test_they_do_not_depend_on_the_pieces(recording, pieces):
     one, two = (
         [p for _, found in streamed(recording, pieces, seed=seed) for p in found] for seed in (3, 4)

@@ -25,6 +25,7 @@ def gathering_of(clocks):
     return Gathering(clocks, dict.fromkeys(clocks, 0)), Entrance(clocks)
 
 
+@pytest.mark.slow
 @given(
     st.sampled_from([3.0, 100.0, 333.3, 16_000.0]),
     st.sampled_from([0.0, 0.3, -7.25, 1234.5]),
@@ -97,6 +98,7 @@ def test_a_missing_sample_is_no_infinite_one_and_the_caller_may_write_again():
     np.testing.assert_array_equal(handed, [1.0, np.nan, 3.0])
 
 
+@pytest.mark.slow
 def test_pushes_of_a_few_samples_give_the_profile_of_the_whole_recording(drive, pieces, same):
     recording = drive([(20.0, 40.0)], tracks=("left", "right"), height_hz=333.0)
     expected = run_as_live(recording, "temporal-matched-hpf").profile

@@ -25,6 +25,7 @@ def joined(windows, joints, fade=FADE, **about):
     return [points for points in found if points is not None]
 
 
+@pytest.mark.slow
 @given(st.lists(st.integers(1, 4000), min_size=1, max_size=6), st.integers(0, 3000))
 def test_windows_that_agree_give_back_what_they_measured(cores, fade):
     total = sum(cores) + 3000

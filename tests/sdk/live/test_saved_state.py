@@ -39,6 +39,7 @@ def test_a_resumed_stream_gives_the_same_profile(
     same(join_points(points), expected)
 
 
+@pytest.mark.slow
 def test_a_state_is_saved_again_as_it_was(made, pieces, tmp_path):
     recording, _ = made
     with start_stream(recording.setup, clocks_of(recording), "temporal-basic") as stream:

@@ -49,6 +49,7 @@ def points_of(recording, pipeline, pieces, **more):
         return [*points, *stream.finish()]
 
 
+@pytest.mark.slow
 @settings(max_examples=20, phases=[Phase.explicit, Phase.reuse, Phase.generate])
 @given(
     st.sampled_from(sorted(CASES)),

@@ -41,6 +41,7 @@ def cuts_of(places, bounds):
     return [*found, *([] if last is None else [last])], max(held)
 
 
+@pytest.mark.slow
 @given(LEGS, BOUNDS)
 def test_windows_cover_all_travel(legs, bounds):
     places = places_of(legs)
@@ -56,6 +57,7 @@ def test_windows_cover_all_travel(legs, bounds):
     assert missed_m <= MOVES_M * stops * (1 + places.size * TICK_S / STANDS_S)
 
 
+@pytest.mark.slow
 @given(LEGS, BOUNDS)
 def test_windows_overlap_by_run_in_and_run_out(legs, bounds):
     places = places_of(legs)
@@ -76,6 +78,7 @@ def test_windows_overlap_by_run_in_and_run_out(legs, bounds):
         assert run_in_m >= bounds.settle_m - 1e-9 or long_ago or reaches_back or begin == 0
 
 
+@pytest.mark.slow
 @given(LEGS, BOUNDS)
 def test_a_window_is_no_longer_than_stated(legs, bounds):
     places = places_of(legs)
@@ -87,6 +90,7 @@ def test_a_window_is_no_longer_than_stated(legs, bounds):
             assert cut.end_s - cut.begin_s <= longest_s
 
 
+@pytest.mark.slow
 @given(LEGS, BOUNDS, st.integers(0, 2**32 - 1))
 def test_a_decision_depends_on_nothing_that_follows(legs, bounds, seed):
     places = places_of(legs)

@@ -41,6 +41,7 @@ def test_where_all_is_valid_both_figures_are_the_iri(seed: int) -> None:
     assert result.counted_share == 1.0
 
 
+@pytest.mark.slow
 @given(SEEDS, CUTS)
 def test_elevations_that_are_not_valid_change_nothing(seed: int, cuts: list[int]) -> None:
     valid = marks(cuts)

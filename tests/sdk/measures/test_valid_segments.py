@@ -46,6 +46,7 @@ def test_they_are_those_of_the_reference(seed: int, cuts: list[int], length: flo
         assert mine.invalid_m == pytest.approx(theirs.invalid, abs=1e-12)
 
 
+@pytest.mark.slow
 @given(SEEDS, CUTS, LENGTHS)
 def test_segments_weighted_by_what_counts_are_the_whole(
     seed: int, cuts: list[int], length: float
@@ -78,6 +79,7 @@ def test_no_more_is_invalid_than_there_is(seed: int, cuts: list[int], length: fl
         assert any(s.marked for s in result)
 
 
+@pytest.mark.slow
 @given(SEEDS, CUTS, LENGTHS)
 def test_elevations_that_are_not_valid_change_nothing(
     seed: int, cuts: list[int], length: float
@@ -105,6 +107,7 @@ def test_where_all_is_valid_both_figures_are_one(seed: int, length: float) -> No
         assert not mine.marked
 
 
+@pytest.mark.slow
 @given(SEEDS, CUTS, CUTS)
 def test_two_profiles_are_compared_where_both_are_valid(
     seed: int, one: list[int], other: list[int]

@@ -170,6 +170,7 @@ def test_importing_loads_no_matplotlib_and_drawing_no_pyplot(tmp_path: Path) -> 
     assert (tmp_path / "p.png").exists()
 
 
+@pytest.mark.slow
 def test_a_placement_is_written_above_the_comparison(tmp_path: Path) -> None:
     run = profile("left")
     for name, placement_m in (("placed", 65.0), ("earlier", -65.0), ("right", 0.0), ("none", None)):

@@ -60,6 +60,7 @@ def text_of(path: Path) -> str:
     return path.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("located", [True, False])
 @pytest.mark.parametrize("paths", [1, 2])
 def test_lengths_shares_and_failures_are_told(tmp_path: Path, located: bool, paths: int) -> None:

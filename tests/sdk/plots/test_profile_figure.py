@@ -39,6 +39,7 @@ def drawn(line: Any) -> np.ndarray:
     return np.flatnonzero(finite)
 
 
+@pytest.mark.slow
 @given(st.integers(0, COUNT - 1), st.integers(0, COUNT), st.booleans())
 def test_every_point_is_drawn_solid_if_valid_and_dotted_if_not(
     first: int, end: int, second: bool

@@ -58,6 +58,7 @@ def test_an_arm_that_contradicts_the_swing_is_told(axis: int, by_m: float) -> No
     assert found_m == pytest.approx(recording.setup.gnss_antenna_offset_m[axis], abs=1.0)
 
 
+@pytest.mark.slow
 def test_a_missing_arm_is_told_with_what_the_swing_says() -> None:
     recording, motion = driven("soft-van")
     (line,) = warnings_of(with_arm(recording, 0.0, 0.0, 0.0), motion)

@@ -51,6 +51,7 @@ def test_a_delay_is_told_with_its_size_and_nothing_else_is_blamed(seed: int, by_
     assert others == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("by_s", [-18.0, 3.0, 12.5])
 def test_seconds_are_refused(by_s: float) -> None:
     with pytest.raises(InputError, match=rf"add {-by_s:.1f}\d* s to its time stamps \(UTC and"):
@@ -121,6 +122,7 @@ def test_a_slow_receiver_is_checked_like_a_fast_one() -> None:
         checked(gnss(driven(), slow))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_a_receiver_too_slow_to_follow_the_body_tells_no_delay(seed: int) -> None:
     """One reading a second fits several swings."""

@@ -34,6 +34,7 @@ def left_out(recording: Recording, pipeline: str) -> list[str]:
     return [line for line in result.warnings if "left out" in line]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pipeline", PIPELINES)
 def test_wild_velocities_are_told_once_for_both_wheel_paths(pipeline: str) -> None:
     name, wild = "gnss_vertical_velocity", [61, 90, 91]

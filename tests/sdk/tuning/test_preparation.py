@@ -52,6 +52,7 @@ def test_a_run_is_compared_beyond_its_run_in(driven: Driven, given: Given) -> No
     assert comparison.end_m == pytest.approx(145.0, abs=0.5)
 
 
+@pytest.mark.slow
 def test_without_high_speed_there_is_no_tuning(driven: Driven, given: Given) -> None:
     stop = driven("stop")
     with pytest.raises(InputError, match=r"no run at a constant speed.*\(stop: short stop\)"):

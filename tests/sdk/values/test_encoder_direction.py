@@ -28,6 +28,7 @@ def distance(values: np.ndarray) -> Channel:
     return Channel.of("distance", values, UniformClock.of(RATE))
 
 
+@pytest.mark.slow
 @few
 @given(
     chunk=st.integers(50, 900),

@@ -74,6 +74,7 @@ def without(recording: Recording, *names: str) -> Recording:
     return Recording(kept, recording.setup)
 
 
+@pytest.mark.slow
 def test_the_response_alone_is_looked_at():
     """A height, or the profiler's own accelerometer, makes no difference."""
     recording = driven("zhu-half-car", length_m=150.0).recording

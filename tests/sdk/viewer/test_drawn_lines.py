@@ -46,6 +46,7 @@ def check(page: Kept, entry: dict[str, Any], part: str, low: np.ndarray, high: n
                 assert abs(highs[k] - np.nanmax(high[inside])) <= within
 
 
+@pytest.mark.slow
 @given(COUNTS, st.integers(FEWEST_BINS, 2000), st.data())
 @FEW
 def test_solid_dotted_band_and_marks_are_those_of_the_points(

@@ -31,6 +31,7 @@ def page_of(read_page: Read, path: Path, runs: dict[str, Profile], **options: An
     return read_page(path)
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(far_m=FAR_M, shift=st.integers(-500, 500), seed=st.integers(0, 9))
 def test_a_run_is_found_where_it_was_moved_to(road, far_m, shift, seed) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from math import isnan, nan
 
 from floatref.batch.jobs.job import Job
+from floatref.batch.jobs.natural_order import NaturalKey, natural_key
 from floatref.batch.results.record import Effort, Record, Row
 
 ROUGHEST = 5
@@ -34,7 +35,7 @@ class Tally:
         pipelines: files with a profile by the pipeline that made it.
         length_m: of all profiles; ``new_m`` of those that this command has made.
         effort: of all profiles, whenever they were made: sums, and the largest peak of memory.
-        roughest: IRI of valid points in m/km, name and row, the largest first.
+        roughest: IRI of valid points in m/km, name and row, the largest first; equal ones by name.
         not_ranked: rows whose valid points are too few to be among the roughest.
     """
 
@@ -121,7 +122,7 @@ class Tally:
             if not isnan(row.iri_of_valid_m_per_km) and row.counted_share * row.length_m >= needed_m
         ]
         self.not_ranked += len(record.rows) - len(rows)
-        self.roughest = heapq.nlargest(ROUGHEST, self.roughest + rows, key=lambda item: item[0])
+        self.roughest = heapq.nsmallest(ROUGHEST, self.roughest + rows, key=_rank)
 
 
 def total(one: Effort, other: Effort) -> Effort:
@@ -133,6 +134,12 @@ def total(one: Effort, other: Effort) -> Effort:
         one.bytes_out + other.bytes_out,
         max(one.peak_bytes, other.peak_bytes),
     )
+
+
+def _rank(item: tuple[float, str, Row]) -> tuple[float, NaturalKey, float, str]:
+    """Return what orders a row: files end in any order, and equal ones are in that of the table."""
+    iri, name, row = item
+    return -iri, natural_key(name), row.start_m, row.track
 
 
 def _weight(size_bytes: int) -> int:

@@ -15,6 +15,7 @@ from floatref_adapters.testing.whole_reading import ticks_of as ticks
 few = settings(deadline=None, max_examples=80)
 
 
+@pytest.mark.slow
 @few
 @given(
     numbers=st.lists(st.integers(-(10**16), 10**17), min_size=2, max_size=20),
@@ -38,6 +39,7 @@ def test_times_are_ticks_of_their_last_decimal(
     assert exact == [Fraction(n, 10**decimals * 1000) for n in numbers]
 
 
+@pytest.mark.slow
 @few
 @given(
     starts=st.lists(st.integers(-(2**63) + 1, 2**63 - 1), min_size=1, max_size=8),

@@ -74,6 +74,7 @@ def test_what_is_read_are_the_written_digits(tmp_path_factory, profile):
     assert written(back, path).split(b"END")[1] == raw.split(b"END")[1]
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(values=st.lists(elevations, min_size=1, max_size=20))
 def test_digits_are_rounded_half_to_even(tmp_path_factory, values):
@@ -140,6 +141,7 @@ def test_names_that_ascii_or_the_field_cannot_hold_stay_apart(tmp_path):
     assert back.pipeline == "p?"
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(
     values=st.lists(st.none() | st.floats(-9, 9), min_size=1, max_size=40), cut=st.integers(1, 40)

@@ -51,6 +51,7 @@ def test_groups_are_streams_and_datasets_columns(path: Path) -> None:
     assert units["laser"] == "mm"
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(
     raw=st.lists(st.integers(-32767, 32767), min_size=2, max_size=20),
@@ -78,6 +79,7 @@ def test_packed_numbers_are_unpacked_as_cf_says(
     np.testing.assert_allclose(found, expected, rtol=1e-15, atol=0)
 
 
+@pytest.mark.slow
 def test_times_since_a_date_are_utc_and_scaled_times_stay_integers(path: Path) -> None:
     with h5py.File(path, "w") as file:
         a, b = file.create_group("a"), file.create_group("b")

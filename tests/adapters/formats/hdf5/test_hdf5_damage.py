@@ -18,6 +18,7 @@ from floatref_adapters.formats.hdf5.dataset_rows import native_file
 from floatref_adapters.testing.hdf5 import write_hdf5
 
 
+@pytest.mark.slow
 def test_what_is_in_other_files_is_not_followed(path: Path) -> None:
     other = path.with_name("other.h5")
     with h5py.File(other, "w") as file:
@@ -89,6 +90,7 @@ def test_attributes_of_no_clock_are_refused(path: Path, value: Any) -> None:
         Hdf5().streams(path, {})
 
 
+@pytest.mark.slow
 def test_a_row_without_its_time_is_refused(path: Path) -> None:
     with h5py.File(path, "w") as file:
         file["t"], file["x"] = np.array([0.0, np.nan, 2.0]), np.arange(3.0)
@@ -143,6 +145,7 @@ def test_a_reader_that_is_left_early_leaves_no_process(path: Path) -> None:
     assert next(stream.read(["x"])).values["x"].size == 1 << 16
 
 
+@pytest.mark.slow
 def test_modules_beside_the_file_are_not_imported(
     path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -40,6 +40,7 @@ def assert_same(found, expected):
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(recording=recordings())
 def test_what_is_written_is_read_again_bit_by_bit(tmp_path_factory, recording):

@@ -32,6 +32,7 @@ def test_scales_of_a_run_without_noise_are_recovered(
     assert not found.inverted
 
 
+@pytest.mark.slow
 def test_an_error_of_distance_of_a_twentieth_of_a_percent_is_resolved(road) -> None:
     for seed in range(10):
         run = road.run(scale=1.0005, noise=0.2, seed=seed)

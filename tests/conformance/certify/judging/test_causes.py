@@ -29,6 +29,7 @@ def test_a_good_run_has_no_cause(road) -> None:
         assert causes_by_id(road.reference(), road.run(noise=0.08, seed=seed)) == {}
 
 
+@pytest.mark.slow
 @settings(max_examples=10, deadline=None)
 @given(percent=st.floats(0.5, 5.0), sign=st.sampled_from([-1, 1]))
 def test_an_error_of_distance_is_named_and_explains_what_is_lost(road, percent, sign) -> None:
@@ -39,6 +40,7 @@ def test_an_error_of_distance_is_named_and_explains_what_is_lost(road, percent, 
     assert found["distance"].explains > 0.8
 
 
+@pytest.mark.slow
 @settings(max_examples=10, deadline=None)
 @given(percent=st.floats(2.5, 10.0), sign=st.sampled_from([-1, 1]))
 def test_a_scale_of_heights_is_named_and_explains_what_is_lost(road, percent, sign) -> None:

@@ -41,6 +41,7 @@ def test_perfect_runs_pass_every_class_with_a_correlation_of_one(
         assert criterion(sheet, "iri-bias", track).value == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_of_the_errors_of_the_iri_the_largest_comes_first_whatever_its_sign(sheet_of, run_over):
     runs = [run_over(k, height=h) for k, h in enumerate((1.03, 0.9, 1.06), 1)]
     sheet = sheet_of(tuple(runs), CertificationLimits(runs=3, iri_bias_percent=1.0))
@@ -115,6 +116,7 @@ def test_of_many_runs_below_the_worst_are_named_and_the_rest_counted(sheet_of, r
     assert found.reason.endswith("; and 3 more")
 
 
+@pytest.mark.slow
 def test_fewer_runs_than_asked_for_leave_the_verdict_open(sheet_of, ten_runs):
     sheet = sheet_of(ten_runs[:9])
     found = criterion(sheet, "runs")
@@ -123,6 +125,7 @@ def test_fewer_runs_than_asked_for_leave_the_verdict_open(sheet_of, ten_runs):
     assert criterion(sheet, "repeatability", "left").judged is Judged.PASS
 
 
+@pytest.mark.slow
 def test_a_run_that_cannot_be_used_is_named_and_does_not_count(sheet_of, ten_runs):
     bad = Run("torn", "torn.erd", (), None, "line 3 is cut short")
     runs = (bad, *(Run(f"run-{k}", "", (), p) for k, p in enumerate(ten_runs)))
@@ -150,6 +153,7 @@ def test_a_hole_beyond_the_share_fails_and_names_run_and_wheel_path(sheet_of, te
     assert found.reason == "without elevation: run-1, left: 5.0 m"
 
 
+@pytest.mark.slow
 def test_a_small_hole_and_flags_are_told_and_not_judged(sheet_of, ten_runs, without, reference):
     small = without(ten_runs[0], "left", 1000, 60)
     doubted = without(ten_runs[1], "right", 1000, 1000, flags_only=True)

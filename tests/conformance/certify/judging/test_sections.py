@@ -44,6 +44,7 @@ def check_against_compare(folder, sheet):
             assert pairs[i, j] == printed[name]["cross_correlation"]
 
 
+@pytest.mark.slow
 def test_every_number_of_whole_runs_is_compares(tmp_path, sheet_of, reference, ten_runs):
     sheet = sheet_of(ten_runs[:4])
     assert all(run.profile is given for run, given in zip(sheet.runs, ten_runs, strict=False))
@@ -83,6 +84,7 @@ def test_the_average_of_a_run_is_over_its_own_pairs(sheet_of, ten_runs):
     assert track.with_others == pytest.approx(np.mean(own), abs=1e-15)
 
 
+@pytest.mark.slow
 def test_the_order_in_which_runs_are_given_changes_nothing(sheet_of, ten_runs):
     named = [Run(f"run-{k}", f"run-{k}", (), p) for k, p in enumerate(ten_runs, 1)]
     there, back = sheet_of(tuple(named)), sheet_of(tuple(named[::-1]))
@@ -137,6 +139,7 @@ def test_a_wheel_path_that_holds_nothing_leaves_the_other_one(sheet_of, ten_runs
     assert left.missing_m == pytest.approx(200.05)
 
 
+@pytest.mark.slow
 def test_what_a_run_flags_or_lacks_is_measured_in_m(sheet_of, ten_runs, without, run_over):
     flagged = without(ten_runs[0], "left", 100, 40, flags_only=True)
     holed = without(ten_runs[1], "right", 100, 40)
@@ -175,6 +178,7 @@ def test_a_reference_that_cannot_serve_is_refused_by_the_name_of_its_section(she
         sheet_of(ten_runs[:1], stretch_m=(0.0, 300.0))
 
 
+@pytest.mark.slow
 def test_a_run_that_agrees_has_no_cause_whatever_it_flags(sheet_of, run_over, without):
     runs = (without(run_over(1), "left", 0, 1000, flags_only=True), run_over(2), run_over(3))
     sheet = sheet_of(runs)

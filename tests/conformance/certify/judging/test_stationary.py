@@ -56,6 +56,7 @@ def test_by_default_all_counts_but_the_run_in_of_the_filters_at_both_ends():
         assert found.iri_m_per_km[track.name] == iri(part, INTERVAL)
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(st.floats(0.0, 300.0), st.floats(60.0, 100.0))
 def test_a_stretch_counts_from_its_first_to_its_last_point(start, length):

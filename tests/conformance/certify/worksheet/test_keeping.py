@@ -49,6 +49,7 @@ def written(worksheet: Worksheet, folder: Path) -> set[str]:
     return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_dir()}
 
 
+@pytest.mark.slow
 def test_every_profile_that_was_compared_is_kept(worksheet: Worksheet, tmp_path: Path) -> None:
     folders = written(worksheet, tmp_path / "report")
     sections = ("a-b", "A-B-2")

@@ -56,6 +56,7 @@ def test_what_a_file_says_is_text(spoilt, hostile):
     text.encode("utf-8")
 
 
+@pytest.mark.slow
 def test_every_id_is_the_only_one_and_every_label_is_there(certified):
     made = certified()
     found = Page(as_html(replace(made, sections=made.sections * 2)))

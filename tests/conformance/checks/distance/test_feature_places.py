@@ -77,6 +77,7 @@ def test_a_coarser_profile_that_is_averaged_first_has_its_features_in_place(stop
     assert failing(stopped, change=averaged(stopped, interval_m), interval_m=interval_m) == set()
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=5)
 @given(shift_m=st.floats(-2.0, 2.0))
 def test_a_shifted_start_is_read_as_such_and_as_nothing_else(stopped, shift_m):
@@ -85,6 +86,7 @@ def test_a_shifted_start_is_read_as_such_and_as_nothing_else(stopped, shift_m):
     assert max(values[SCALE], values[STEP], values[REST]) < 0.01
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=5)
 @given(percent=st.floats(-0.25, 0.25))
 def test_an_error_of_scale_is_read_in_percent(stopped, percent):
@@ -129,6 +131,7 @@ def test_points_without_elevation_are_an_error_in_a_feature_alone(stopped):
         read(stopped, change=without(event + 61.0, event + 62.0))
 
 
+@pytest.mark.slow
 @both
 def test_an_encoder_that_is_wrong_by_a_known_share_has_the_features_there(check):
     scenario = check.cases(1, Effort.QUICK)[1].scenario

@@ -76,6 +76,7 @@ def test_an_error_of_scale_is_read_as_one_of_gain(taken, percent):
     assert values[GAIN] == pytest.approx(percent, rel=0.02, abs=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [0.9, 1.1])
 def test_a_cut_off_wrong_by_a_tenth_is_read_in_decibel_and_fails(taken, factor):
     expected = abs(20 * np.log10(gain_at(91.44, factor * 91.44) * 2**0.5))

@@ -220,6 +220,7 @@ def test_the_simplest_case_is_one_of_a_sensor_that_the_device_has(having):
     assert needs_of(check.simplest.variation["fault"]) <= set(having)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(case=FaultsCheck().strategy())
 def test_whatever_is_drawn_is_a_drive_and_a_fault(case):

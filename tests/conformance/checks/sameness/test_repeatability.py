@@ -111,6 +111,7 @@ def test_on_two_lines_true_roads_differ_and_two_passes_without_errors_lose_nothi
     assert read(SECOND) == pytest.approx({BETWEEN: 0.0, DIFFERENCE: 0.0, TO_TRUTH: 0.0}, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_flat_road_has_no_share_of_its_roughness_and_is_refused():
     numbers = {"road": "flat", "wander_m": 0.0, "wander_within_m": 0.0}
     with pytest.raises(InputError, match="flat; give one with an IRI above 0"):
@@ -124,6 +125,7 @@ def test_the_text_says_on_what_lines_the_editions_passes_are():
     assert "lines of their own" not in FIRST.derivation
 
 
+@pytest.mark.slow
 def test_passes_that_each_keep_within_the_limits_of_accuracy_can_differ_too_much():
     changes = {"first": times(1.035), "second": times(0.965)}
     assert failing(**changes) == {DIFFERENCE}

@@ -31,6 +31,7 @@ def submit(call):
     return lambda name, *words: call("submit", "--device", f"fake:{name}", "-o", "a.zip", *words)
 
 
+@pytest.mark.slow
 def test_a_failure_is_submitted_and_confirmed(call, submit, tmp_path):
     ended = submit("clipping")
     assert ended.exit_code == 1, ended.output

@@ -77,6 +77,7 @@ def test_a_wrong_answer_ends_the_run_with_a_reason(program, recording, wrong):
     assert isinstance(caught.value, DeviceRefused) == ("refused" in WRONG[wrong])
 
 
+@pytest.mark.slow
 def test_a_device_that_stops_answering_hangs_when_the_window_is_full(program, recording):
     silent = "answers = [] if kind == 'sync' else answers"
     with pytest.raises(DeviceHung):

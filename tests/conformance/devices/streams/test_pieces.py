@@ -36,6 +36,7 @@ def test_all_samples_come_once_and_in_order(recording, by_turns):
             np.testing.assert_array_equal(found[str(channel.id)], channel.values)
 
 
+@pytest.mark.slow
 @given(
     rate=st.floats(0.5, 5000.0),
     start_s=st.floats(-100.0, 100.0),

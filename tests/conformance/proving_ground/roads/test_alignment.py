@@ -24,6 +24,7 @@ features = st.one_of(
 PLAIN = Scenario(road="flat", sensors=0.0, rate_hz=2000.0, gnss=False, length_m=400.0)
 
 
+@pytest.mark.slow
 @given(st.lists(features, min_size=1, max_size=3))
 def test_grade_and_curvature_are_the_derivatives_of_the_height(found):
     alignment, x = Alignment(tuple(found)), np.linspace(0.0, 200.0, 40001)

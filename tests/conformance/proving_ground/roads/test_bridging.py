@@ -45,6 +45,7 @@ def sort_readings(strip: Surface, k: int, middle_m: float, width_m: float) -> fl
     return float(np.mean(z[first:last]))
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(wide=st.floats(0.001, 0.0145), at=st.floats(-0.04, 0.04))
 def test_a_crack_narrower_than_its_share_does_not_reach_the_height(wide: float, at: float) -> None:

@@ -57,6 +57,7 @@ def test_a_concrete_motorway_has_the_kurtosis_that_was_measured(seed):
     assert 0.7 < low / high < 1.4
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(seed=SEEDS, per_km=st.floats(1.0, 100.0))
 def test_patches_are_as_many_as_stated_and_level_on_top(seed, per_km):

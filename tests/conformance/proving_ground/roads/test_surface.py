@@ -32,6 +32,7 @@ def by_hand(ground: Surface, y: FloatArray) -> list[float]:
     return found
 
 
+@pytest.mark.slow
 @given(st.integers(0, 999), st.sampled_from([np.float32, np.float64]), st.data())
 @settings(deadline=None)
 def test_a_line_is_what_plain_loops_find(seed: int, kind: type, data: st.DataObject) -> None:

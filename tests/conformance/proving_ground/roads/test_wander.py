@@ -26,6 +26,7 @@ def test_the_wander_has_the_stated_deviation_and_correlation() -> None:
         assert found == pytest.approx(np.exp(-((apart / CORRELATION_M) ** 2)), abs=0.05)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 2**63 - 1), st.floats(0.0, 0.5), st.floats(0.0, 0.1))
 def test_a_line_is_the_same_on_a_longer_road_and_on_another_grid(
     seed: int, between: float, within: float

@@ -113,6 +113,7 @@ def test_tracks_are_measured_at_their_own_wheel_of_the_axle_that_has_sensors(
         assert read == pytest.approx(travel, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_body_accelerometer_feels_gravity_and_braking_through_its_tilt() -> None:
     """(2.17) at small angles, which the recording's own vertical accelerometer shows too."""
     scenario = replace(
@@ -168,6 +169,7 @@ def test_errors_are_as_large_as_the_suite_says(
         assert read / step == pytest.approx(np.rint(read / step), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_the_deflection_is_noisy_coarse_and_off_in_scale() -> None:
     scenario = replace(SHORT, road="iso-E", iri_m_per_km=0.0)
     true = values(simulate(scenario, suite=IDEAL).recording, "suspension_deflection")

@@ -197,6 +197,7 @@ def test_counts_never_fall_and_lag_by_less_than_one(steps: list[float]) -> None:
     assert np.all((travel - counts > -1e-9) & (travel - counts < 0.3e-3 + 1e-9))
 
 
+@pytest.mark.slow
 def test_encoder_slips_with_acceleration() -> None:
     """Against the integral of speed times (1 + slip per g · a / g), by quadrature."""
     t = np.arange(56000) / 16000

@@ -92,6 +92,7 @@ def test_centre_of_gravity_feels_the_equations_of_the_text(seed: int) -> None:
     assert point.vertical == pytest.approx(a_x * st_ * cp + lifted * ct * cp, abs=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(2.19)", "(2.20)")
 @settings(deadline=None, max_examples=15)
 @given(seed=seeds)
@@ -128,6 +129,7 @@ def test_range_over_a_level_floor_grows_with_both_cosines(seed: int) -> None:
     assert np.abs(point.road_m).max() < 1e-12
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(seed=seeds, offset=st.tuples(st.floats(-0.3, 0.3), st.floats(-0.1, 0.1), st.just(0.0)))
 def test_footprint_lies_on_the_road_at_the_end_of_the_beam(

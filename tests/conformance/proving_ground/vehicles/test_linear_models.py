@@ -42,6 +42,7 @@ def read(simulation: Simulation, name: str, track: str | None = None) -> np.ndar
     return simulation.recording.channel(name, track).values
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tracks", [("main",), ("left", "right")])
 @every_model
 def test_every_freedom_obeys_the_equation_of_motion(name: str, tracks: tuple[str, ...]) -> None:
@@ -127,6 +128,7 @@ def test_a_trailer_on_one_road_does_not_roll() -> None:
     assert np.abs(uneven.position[3]).max() > 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(8) of Zhu")
 @pytest.mark.parametrize("speed_kmh", [36.0, 90.0])
 def test_the_rear_wheel_meets_the_front_wheels_road_later(speed_kmh: float) -> None:

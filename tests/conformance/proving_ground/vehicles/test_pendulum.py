@@ -128,6 +128,7 @@ def test_figure_2_18_the_body_reads_gravity_while_it_leans(pulse: PendulumMotion
     assert (pulse.body_longitudinal - pulse.longitudinal)[braking].max() < 0.0
 
 
+@pytest.mark.slow
 def test_figure_2_19_the_body_reads_too_little_during_the_pulse_only(
     pulse: PendulumMotion,
 ) -> None:

@@ -21,6 +21,7 @@ def test_json_is_all_there_is_on_stdout(call, assert_json):
     assert_json(answer, "conformance-stops/1", "minivan, fair road")
 
 
+@pytest.mark.slow
 def test_options_reach_the_settings(call):
     command, made = call
     assert command("--stops", "2").exit_code == 0

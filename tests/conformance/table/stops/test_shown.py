@@ -58,6 +58,7 @@ def test_a_pipeline_without_sigma_has_dashes(hand_stops):
     assert not any("true distance" in line for line in lines)
 
 
+@pytest.mark.slow
 def test_all_pipelines_stand_together_in_80_columns(hand_stops):
     """The errors of the IRI are as large as the basic algorithms make them at long stops."""
     settings = StopSettings(stops=7)

@@ -53,6 +53,7 @@ def test_a_plain_name_is_the_path_below_the_folder() -> None:
     assert name_below(base / "../other/run.mf4", base) == "run.mf4"
 
 
+@pytest.mark.slow
 @given(names=st.lists(NAMES, max_size=12))
 @example(names=["A1", "A1/run.mf4"])
 @example(names=["A1", "A1.json/run.mf4"])

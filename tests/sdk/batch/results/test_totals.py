@@ -103,6 +103,16 @@ def test_the_roughest_rows_are_kept_in_order(values: list[float]) -> None:
     assert all(values[int(name)] == iri for iri, name, _ in tally.roughest)
 
 
+@given(st.permutations(["run-2", "run-9", "run-10", "run-11", "run-100", "run-101", "run-102"]))
+def test_equal_rows_are_ranked_as_people_count_whichever_file_ends_first(names: list[str]) -> None:
+    tally = Tally()
+    for name in names:
+        tally.add(job(name), record(name))
+    kept = [name for _, name, _ in tally.roughest]
+    assert kept == ["run-2", "run-9", "run-10", "run-11", "run-100"]
+
+
+@pytest.mark.slow
 @patient
 @given(st.lists(st.tuples(st.floats(0.0, 20.0), st.floats(0.0, 1.0)), max_size=20))
 def test_a_row_of_which_half_is_invalid_is_counted_and_not_ranked(

@@ -51,6 +51,7 @@ def test_what_answers_is_passed_on() -> None:
         call_within(lambda: {}["missing"], 600.0)
 
 
+@pytest.mark.slow
 def test_what_never_answers_is_given_up(silent: Silent) -> None:
     with pytest.raises(TimeoutError):
         call_within(silent.result, 0.01)
@@ -58,6 +59,7 @@ def test_what_never_answers_is_given_up(silent: Silent) -> None:
         call_until(silent.result, lambda: True)
 
 
+@pytest.mark.slow
 def test_a_file_whose_result_never_comes_has_a_row(tmp_path: Path, silent: Silent) -> None:
     job, lost = Job(tmp_path / "a", "a", tmp_path), threading.Event()
     lost.set()

@@ -78,6 +78,7 @@ def test_a_record_that_does_not_name_its_pipeline_still_holds(jobs: dict[str, Jo
     assert (again.skipped, again.pipeline) == (True, AUTO)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_file_that_is_read_is_among_the_inputs(jobs: dict[str, Job], kind: str) -> None:
     job = jobs[kind]

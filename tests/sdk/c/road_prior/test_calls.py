@@ -34,6 +34,7 @@ def test_any_split_gives_the_same_bits(drives, smoothed, interval_m, seed, cuts)
     assert whole.flags.size > 200
 
 
+@pytest.mark.slow
 def test_sample_by_sample_gives_the_same_bits(drives, smoothed):
     drive = drawn(drives, 1)
     whole = smoothed(drive, **SETTINGS)

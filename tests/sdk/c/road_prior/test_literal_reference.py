@@ -3,6 +3,7 @@
 from math import ceil
 
 import numpy as np
+import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from tests.sdk.estimators.road_prior.literal_constants import literal_constants
@@ -53,6 +54,7 @@ SEEDS = st.integers(0, 2**32 - 1)
 STOPS = st.tuples(st.floats(1.0, 2.0), st.floats(0.1, 1.0))
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS, rate=st.sampled_from([80, 150, 300]), stop=STOPS, missing=st.floats(0.0, 0.6))
 def test_whole_runs_agree(drives, smoothed, of_sdk, seed, rate, stop, missing):

@@ -30,6 +30,7 @@ def test_a_port_that_is_no_port_is_one_line(tmp_path, port):
     assert not (tmp_path / "run").exists()
 
 
+@pytest.mark.slow
 def test_without_a_view_nothing_that_draws_is_loaded():
     code = (
         "import sys, floatref.cli.live.command; print([m for m in sys.modules if 'monitor' in m])"

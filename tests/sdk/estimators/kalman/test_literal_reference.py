@@ -69,6 +69,7 @@ def test_with_gaps_and_readings_that_lack_a_component(drive, height_of, seed, ra
     assert_same(drawn, height_of, GNSS, by_gnss(kept), within=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.cites("(6.48)")
 @laws
 @given(seed=SEEDS, lever=st.tuples(*[st.floats(-3.0, 3.0)] * 3))

@@ -84,6 +84,7 @@ def test_windows_of_a_long_run_pass_into_each_other(monkeypatch: pytest.MonkeyPa
     assert np.std(step[NEAR_END]) < 0.2 * scale
 
 
+@pytest.mark.slow
 def test_a_bounce_test_has_no_pitch_that_could_be_known() -> None:
     """The body moves by 10 mm at 1.5 Hz over one point, an artificial encoder says 20 m/s."""
     t, omega = STEP * np.arange(3000), 2 * np.pi * 1.5

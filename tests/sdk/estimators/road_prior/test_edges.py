@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -26,6 +27,7 @@ def heaving(drive, seed):
     return replace(drawn, a=a, h=0.3 + r + 3e-5 * rng.normal(size=times.size)), 0.3 + r
 
 
+@pytest.mark.slow
 @laws
 @given(
     seed=st.integers(0, 2**32 - 1),

@@ -48,6 +48,7 @@ def test_of_a_long_road_it_is_the_spectrum(q, g):
     assert (np.abs(found - expected) < 0.35 * expected + (0.0, 2e-8)).all()
 
 
+@pytest.mark.slow
 @laws
 @given(seed=st.integers(0, 2**32 - 1), cuts=st.lists(st.integers(1, 9999), max_size=5))
 def test_it_is_the_plain_mean_and_pieces_make_no_difference(seed, cuts):
@@ -149,6 +150,7 @@ def test_a_rough_road_is_no_texture(q):
     assert np.sqrt(spectrum.reading_m2()) < 0.1 * np.sqrt(2 * q * 0.02)
 
 
+@pytest.mark.slow
 @laws
 @given(
     seed=st.integers(0, 2**32 - 1),

@@ -60,6 +60,7 @@ def test_its_share_comes_and_goes_within_a_second() -> None:
     assert found.share.max() == 1.0
 
 
+@pytest.mark.slow
 @given(begin=st.integers(0, 3000), count=st.integers(1, 40))
 @settings(deadline=None, max_examples=5)
 def test_a_stretch_without_the_encoder_is_left_and_unsure(begin: int, count: int) -> None:
@@ -105,6 +106,7 @@ def over(stretch: Stretch) -> Fit:
     return Fit(stretch, stretch.start(), np.full(stretch.layout.points - 1, 1e-5), 7, 0.0)
 
 
+@pytest.mark.slow
 @given(many=st.floats(0.0, 12.0), name=st.sampled_from(GLOBALS))
 def test_constants_that_no_vehicle_has_are_not_believed(many: float, name: str) -> None:
     """Sigmas by which one is off, squared."""

@@ -96,6 +96,7 @@ def test_both_begin_at_the_same_unknowns(run: Run, lean: float) -> None:
     assert abs(case.ours.first_m - points.first) < 1e-9
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=40)
 @given(run=RUNS, seed=SEEDS, lean=LEANS)
 def test_all_misfits_agree(run: Run, seed: int, lean: float) -> None:
@@ -146,6 +147,7 @@ def test_answers_and_covariances_agree(run: Run, seed: int, lean: float) -> None
     assert_same_covariance(found, expected.covariance, seed)
 
 
+@pytest.mark.slow
 @few
 @given(run=RUNS, seed=SEEDS, factor=st.floats(0.0, 4.0))
 def test_a_step_is_halved_as_often(run: Run, seed: int, factor: float) -> None:

@@ -72,6 +72,7 @@ def test_variance_of_weighted_sums(seed, count):
     np.testing.assert_allclose(found, expected, atol=1e-9)
 
 
+@pytest.mark.slow
 @given(seed=SEEDS, count=COUNTS)
 @laws
 def test_what_of_a_height_reaches_the_last_mark(seed, count):

@@ -35,6 +35,7 @@ def written(folder, suffix, found):
     return path, count
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(found=features)
 def test_geojson_has_every_feature_that_has_a_place(tmp_path_factory, found):
@@ -55,6 +56,7 @@ def test_geojson_has_every_feature_that_has_a_place(tmp_path_factory, found):
         assert [[tuple(place) for place in part] for part in parts] == [list(s) for s in shape]
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(found=features)
 def test_a_geopackage_has_the_same_features_in_wgs_84(tmp_path_factory, found):

@@ -54,6 +54,7 @@ def messages(drive, live):
     return live.messages_of(drive(LEGS, distance="times"), step_s=5.0)
 
 
+@pytest.mark.slow
 def test_the_answers_are_those_to_json_lines(messages, live, tmp_path):
     data, error = live.serve_bytes(tmp_path / "arrow", as_arrow(messages))
     assert error is None

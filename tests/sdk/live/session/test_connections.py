@@ -64,6 +64,7 @@ def talk(port, data):
             return [json.loads(line) for line in stream]
 
 
+@pytest.mark.slow
 def test_a_peer_that_comes_back_completes_the_run(messages, expected, live, same, tmp_path):
     hello, *pieces, finish = messages
     with served(tmp_path / "run") as (port, lines, errors):
@@ -77,6 +78,7 @@ def test_a_peer_that_comes_back_completes_the_run(messages, expected, live, same
     same(read_profile(tmp_path / "run"), expected)
 
 
+@pytest.mark.slow
 def test_only_a_peer_with_the_token_is_let_in(messages, live, tmp_path):
     hello, *pieces, finish = messages
     with served(tmp_path / "run", TOKEN) as (port, lines, errors):

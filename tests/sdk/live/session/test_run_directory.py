@@ -77,6 +77,7 @@ def check_prefix(path, expected):
     return count
 
 
+@pytest.mark.slow
 def test_it_can_be_read_at_every_moment(made):
     _, expected, moments = made
     assert len(moments) > 30
@@ -95,6 +96,7 @@ def resume_at(moment, made, live, same, tmp_path):
     assert not list(path.glob("live*"))
 
 
+@pytest.mark.slow
 def test_it_resumes_at_three_moments(made, live, same, tmp_path):
     rng = np.random.default_rng()
     for number, moment in enumerate(rng.choice(made[2], 3, replace=False)):

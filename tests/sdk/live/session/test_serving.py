@@ -112,6 +112,7 @@ def test_samples_without_numbers_follow_one_another(made, live, same, tmp_path):
     same(read_profile(tmp_path / "run"), expected)
 
 
+@pytest.mark.slow
 def test_samples_that_never_came_are_missing(made, live, tmp_path):
     recording, _ = made("one clock")
     messages = live.messages_of(recording)

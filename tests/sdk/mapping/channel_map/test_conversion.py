@@ -52,6 +52,7 @@ def travelled(speeds: Sequence[float], times: Sequence[float]) -> list[float]:
     return found
 
 
+@pytest.mark.slow
 @few
 @given(
     values=st.lists(finite, min_size=1, max_size=30),

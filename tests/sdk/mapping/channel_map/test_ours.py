@@ -48,6 +48,7 @@ def test_text_is_no_channel() -> None:
     assert channel_of(Column("height", numeric=False)) is None
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=200)
 @given(track=st.text(st.one_of(st.characters(), st.sampled_from('./\\:*?"<>|')), max_size=50))
 def test_a_track_is_ours_if_and_only_if_the_schema_has_it(track: str) -> None:

@@ -98,6 +98,7 @@ def test_a_long_signal_far_from_zero_loses_nothing_to_rounding() -> None:
         assert found.deviation[k] == pytest.approx(expected, rel=1e-11)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=10)
 @given(seed=seeds, stride=st.integers(2, 7), spare=st.integers(0, 6))
 def test_a_signal_too_long_for_all_sums_counts_by_blocks(

@@ -42,6 +42,7 @@ def off(found: Alignment, own: np.ndarray, offset: float, drift: float) -> float
     return float(np.abs(found.to_base(own) - (offset + (1 + drift) * own)).max())
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=seeds, offset=offsets, drift=drifts, jitter=st.sampled_from([0.0, 1e-5, 5e-4, 4e-3]))
 def test_irregular_pulses_tell_any_offset(seed, offset, drift, jitter) -> None:
@@ -63,6 +64,7 @@ def test_jitter_alone_is_seldom_taken_for_a_curve() -> None:
     assert sum(align_by_pulses(t.own, t.base).warnings != () for t in trains) <= 4
 
 
+@pytest.mark.slow
 @FEW
 @given(
     seed=seeds, offset=offsets, drift=drifts, ahead=st.integers(0, 40), behind=st.integers(0, 40)
@@ -137,6 +139,7 @@ def test_it_is_the_line_of_the_reference(seed, offset, drift, jitter) -> None:
     assert found.residual_s == pytest.approx(float(line.residual), rel=1e-6)
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=seeds, offset=offsets, amplitude=st.floats(1e-3, 5e-3))
 def test_a_drift_that_changes_is_followed_between_the_pulses(seed, offset, amplitude) -> None:
@@ -163,6 +166,7 @@ def test_jitter_alone_bends_nothing(seed, drift, count) -> None:
     assert found.warnings == ()
 
 
+@pytest.mark.slow
 @FEW
 @given(seed=seeds, offset=offsets, drift=drifts, bad=st.lists(st.integers(2, 57), max_size=5))
 def test_pulses_that_are_off_move_nothing(seed, offset, drift, bad) -> None:
@@ -177,6 +181,7 @@ def test_pulses_that_are_off_move_nothing(seed, offset, drift, bad) -> None:
     assert found.warnings == ()
 
 
+@pytest.mark.slow
 @FEW
 @given(
     times=st.lists(st.floats(-1e5, 1e5), min_size=2, max_size=30),

@@ -34,6 +34,7 @@ def spoil(profile: Profile, spans: list[tuple[int, int]], seed: int) -> Profile:
     return replace(profile, tracks=tuple(tracks))
 
 
+@pytest.mark.slow
 @settings(max_examples=12)
 @given(far_m=FAR_M, spans=SPANS, seed=st.integers(0, 9), swapped=st.booleans())
 def test_a_run_is_placed_where_it_was_moved_to(road, far_m, spans, seed, swapped) -> None:

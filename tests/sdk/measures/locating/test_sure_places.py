@@ -42,6 +42,7 @@ def test_of_unlike_roads_next_to_none_is_placed(length_m: float) -> None:
     assert len(placed) <= BY_CHANCE, placed
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(
     start_m=st.floats(-100.0, 100.0),

@@ -143,6 +143,7 @@ def test_profilograph(seed: int, interval: float, wheels: tuple[float, ...]) -> 
         assert found.scallops == len(profilograph.scallops(t, interval, band))
 
 
+@pytest.mark.slow
 @given(seed=seeds, interval=st.sampled_from([0.1, 0.25]))
 @FEW
 def test_must_grind(seed: int, interval: float) -> None:

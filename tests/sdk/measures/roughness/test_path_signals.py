@@ -36,6 +36,7 @@ def road(seed: int, spans: list[tuple[int, int]], missing: bool) -> Profile:
     return Profile(INTERVAL_M, (ProfileTrack.of("left", wild, valid),))
 
 
+@pytest.mark.slow
 @settings(max_examples=6, deadline=None)
 @given(
     seed=st.integers(0, 99),
@@ -60,6 +61,7 @@ def test_pieces_of_a_road_agree_like_the_whole(seed, spans, band, start_m, missi
     assert found.amplitude_factor == pytest.approx(expected.amplitude_factor, rel=1e-10)
 
 
+@pytest.mark.slow
 @settings(max_examples=6, deadline=None)
 @given(seed=st.integers(0, 99), spans=SPANS, start_m=st.floats(-40.0, 40.0))
 def test_bridged_points_do_not_count_wherever_a_piece_ends(seed, spans, start_m) -> None:

@@ -58,6 +58,7 @@ def recorded(slip: float, growth: float, kind: str, late_s: float = 0.0) -> Reco
     return Recording(tuple(channels))
 
 
+@pytest.mark.slow
 @laws
 @given(st.floats(0.01, 0.12), st.floats(-0.01, 0.01))
 def test_an_optical_wheel_shows_slip_and_growth(slip: float, growth: float) -> None:
@@ -104,6 +105,7 @@ def test_where_there_is_nothing_to_see_nothing_is_changed(kind: str) -> None:
     assert 0.5 * off < max(found.record["sigma_m"]) < 1.5 * off
 
 
+@pytest.mark.slow
 @laws
 @given(st.floats(-0.1, 0.12))
 def test_a_given_slip_is_taken_off_whatever_a_second_source_says(slip: float) -> None:

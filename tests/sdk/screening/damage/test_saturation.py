@@ -101,6 +101,7 @@ def test_a_clipped_swing_is_found_under_any_noise(
     assert found_share(values, np.isin(values, ends))[1] == 0
 
 
+@pytest.mark.slow
 @laws
 @given(
     seed=st.integers(0, 2**32 - 1),

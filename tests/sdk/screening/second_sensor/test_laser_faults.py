@@ -104,6 +104,7 @@ def test_a_stretch_is_flagged_where_it_is() -> None:
     assert end * STEP_S <= last <= end * STEP_S + 1.1
 
 
+@pytest.mark.slow
 def test_noise_is_fatal() -> None:
     (doubt,) = doubts(0.01 * band(np.random.default_rng(9).standard_normal(COUNT), *BAND_HZ))
     assert doubt.fatal

@@ -172,6 +172,7 @@ def test_what_cannot_be_is_refused_in_one_line(changed, says):
     assert "\n" not in str(raised.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("samples", "says"),
     [

@@ -56,6 +56,7 @@ def driven(model, seconds):
     return np.split(sum(found), [p, p + 2 * n], axis=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MODELS)
 def test_a_smooth_road_and_all_states_are_followed(name):
     model = MODELS[name]

@@ -23,6 +23,7 @@ def drawn_for(plan, drawn):
     return drawn if plan.gnss else drawn.without_gnss(0, len(drawn))
 
 
+@pytest.mark.slow
 @settings(max_examples=6, deadline=None)
 @given(seed=SEEDS, variant=st.sampled_from(VARIANTS), interval_m=st.sampled_from([0.0625, 0.25]))
 @example(seed=1, variant=VARIANTS[0], interval_m=0.0625)

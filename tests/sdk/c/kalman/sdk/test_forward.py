@@ -23,6 +23,7 @@ PLANS = [
 STOPS = ((7.0, 8.0),)
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS, plan=st.sampled_from(PLANS), quiet=st.sampled_from([1.0, 30.0]))
 @example(seed=1, plan=PLANS[0], quiet=1.0)
@@ -55,6 +56,7 @@ def spoil(drawn, seed):
     return drawn.without_gnss(begin, begin + int(rng.integers(64, 900)))
 
 
+@pytest.mark.slow
 @laws
 @given(seed=SEEDS, plan=st.sampled_from(PLANS[:3]), every_s=st.sampled_from([0.0625, 0.015625]))
 @example(seed=3, plan=PLANS[0], every_s=0.0625)

@@ -1,6 +1,7 @@
 """The expected road is that of its slopes, and its acceleration is the road's own in time."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -18,6 +19,7 @@ from floatref.estimators.road_slope.triggered.expected_road import (
 BINS = st.integers(3, 30)
 
 
+@pytest.mark.slow
 @given(data=st.data(), bins=BINS)
 def test_twice_the_integral_of_its_acceleration_is_its_elevation(data, bins) -> None:
     """On lines between bins: a third of what it bends in two bins is all that is off."""
@@ -40,6 +42,7 @@ def test_an_even_grade_at_one_speed_has_no_acceleration(slope, speed, bins) -> N
     np.testing.assert_allclose(road.acceleration, 0.0, atol=1e-9)
 
 
+@pytest.mark.slow
 @given(first=st.floats(-0.1, 0.1), bend=st.floats(-0.02, 0.02), gain=st.floats(0.001, 0.01))
 def test_of_fits_that_share_an_end_it_is_the_mean_by_their_weights(first, bend, gain) -> None:
     stretch = at_speed(np.full(40, 12.0))

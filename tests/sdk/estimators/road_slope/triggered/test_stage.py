@@ -148,6 +148,7 @@ def test_it_learns_nothing_that_the_smoother_learns() -> None:
     assert levelled_stop()[1].list_learned() == {}
 
 
+@pytest.mark.slow
 @given(samples=st.integers(1, 700))
 @settings(deadline=None, max_examples=8)
 def test_a_run_without_brakes_is_left_bit_for_bit(samples) -> None:
