@@ -16,16 +16,17 @@ from floatref.values.arrays import BoolArray, FloatArray
 from floatref_conformance.devices.interface import RESPONSE
 from floatref_conformance.judge.exercise import describe
 from floatref_conformance.mutants.device import make
-from floatref_conformance.resemblance.answers import Answer, ask_probes
 from floatref_conformance.resemblance.catalogue import FlawVector, find_range, read_vectors
+from floatref_conformance.resemblance.probe_answers import Answer, ask_probes
 from floatref_conformance.resemblance.probes import PROBES
 
 FOLDER = Path(__file__).parents[1] / "docs" / "images" / "flaws"
 WIDTH, HEIGHT, MARGIN, BOTTOM = 480, 150, 8, 34
 MOST_POINTS = 220
-WINDOWS_M = (3.0, 10.0, 30.0, 90.0)
+WINDOWS_M = (6.0, 20.0, 60.0)
 """Lengths of road of which the one is drawn in which the error is largest beside the profile."""
-EDGE_M = 8.0
+EDGE = 0.2
+"""Share of a run at each end in which nothing is sought: a high-pass settles there."""
 NO_PROFILE = ("nothing", "length", "begin", "missing", "missing at the end")
 
 
@@ -51,6 +52,14 @@ def find_probe(flaw: FlawVector) -> str:
     return max(beyond, key=lambda probe: beyond[probe], default="road")
 
 
+def shows_flags(flaw: FlawVector, probe: str) -> bool:
+    """Return whether the feature that is largest on ``probe`` is that of a flag."""
+    good = find_range(read_vectors(), RESPONSE not in flaw.needs)
+    beyond = good.exceed(flaw.features)
+    there = [name for name in beyond if name.startswith(f"{probe}: ")]
+    return "flagged" in max(there, key=lambda name: abs(beyond[name]), default="")
+
+
 def draw_mutant(flaw: FlawVector) -> Drawn:
     """Return what the mutant of ``flaw`` makes of its probe, cut to where it shows."""
     device = make(flaw.mutant)
@@ -59,7 +68,7 @@ def draw_mutant(flaw: FlawVector) -> Drawn:
     wanted = [probe for probe in PROBES if probe.name in ("crawl", "medium", name)]
     answers = list(ask_probes(device, describe(device), wanted))
     answer = next(a for a in answers if a.probe.name == name)
-    return cut(read_lines(answer))
+    return cut(read_lines(answer), shows_flags(flaw, name))
 
 
 def read_lines(answer: Answer) -> Drawn:
@@ -76,21 +85,26 @@ def read_lines(answer: Answer) -> Drawn:
     return Drawn(answer.probe.name, x, true, found, valid)
 
 
-def cut(drawn: Drawn) -> Drawn:
-    """Return the stretch in which the error is the largest share of what is drawn."""
-    error = np.nan_to_num(np.abs(drawn.found - drawn.truth))
-    step = float(drawn.distance_m[1] - drawn.distance_m[0])
-    flagged = float((~drawn.valid).mean())
-    if np.isnan(drawn.found).mean() > 0.05 or (flagged > 0.1 and error.max() < 0.01):
+def cut(drawn: Drawn, whole: bool) -> Drawn:
+    """Return the stretch in which the error varies most beside what is drawn, all if ``whole``.
+
+    The profile is moved to the truth's mean there: what is level is no error of a profile.
+    """
+    error = drawn.found - drawn.truth
+    if whole or np.isnan(error).mean() > 0.05:
         return drawn
+    step = float(drawn.distance_m[1] - drawn.distance_m[0])
     best, chosen = -1.0, slice(None)
     for length_m in WINDOWS_M:
-        for part in _windows(drawn.truth.size, round(length_m / step), round(EDGE_M / step)):
-            span = np.ptp(np.concatenate((drawn.truth[part], np.nan_to_num(drawn.found[part]))))
-            shown = float(np.sqrt(np.mean(error[part] ** 2))) / max(float(span), 2e-4)
+        count, edge = round(length_m / step), round(EDGE * error.size)
+        for part in _windows(error.size, count, edge):
+            level = drawn.found[part] - np.nanmean(error[part])
+            span = float(np.nanmax(level) - np.nanmin(level)) + np.ptp(drawn.truth[part])
+            shown = float(np.nanstd(error[part])) / max(float(span), 2e-5)
             if shown > 1.1 * best:
                 best, chosen = shown, part
-    return _part(drawn, chosen)
+    stretch = _part(drawn, chosen)
+    return replace(stretch, found=stretch.found - np.nanmean(error[chosen]))
 
 
 def _windows(size: int, count: int, edge: int) -> Iterator[slice]:

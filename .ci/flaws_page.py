@@ -32,8 +32,9 @@ measured.
 
 A picture has the mutant's profile, red, over the true one, wide and grey, which is without waves
 beyond 91 m, where it shows most on one of [the probes](conformance.md#resemblance). What it flags
-invalid is the orange bar below. Flaws of the protocol and of streams have no picture: their
-profiles are sound, or there is no profile.
+invalid is the orange bar below. Where a part of the run is shown, the profile is moved to the mean
+of the truth. Flaws of the protocol and of streams have no picture: their profiles are sound, or
+there is no profile.
 
 This page and [the same as JSON](data/flaws.json) are written by `.ci/flaws_page.py`, pictures by
 `.ci/flaw_pictures.py`.
@@ -56,10 +57,13 @@ These were taken for one another:
 |---|---|
 """
 WHY = """
-Flaws that the probes cannot tell apart have the same errors: a scale that is wrong by the same
-share before or after the processing, or two filters that take the same from long waves. What no
-pipeline shares is not measured: `tilt-ignored` and `slip-believed` are whole pipelines, and the
-second is a good one by the probes, on which the wheel slips little; it is never named.
+Some flaws have the same errors on the probes, and cannot be told apart by them: `vouches-never`,
+`middle-flagged` and `coasting-flagged` flag most of a short run (0.94 to 0.99 in common);
+`reverse-pass-missing`, `cotangent` and `third-order` are filters that run forward only (0.97 to
+0.98); `pitch-sign`, `rates-swapped` and `gravity-left-out` are a wrong attitude under braking (0.95
+to 0.99). `throttle-flagged`, `offset-ignored` and `slip-believed` stay within the range of good
+devices on these probes, and are never named. Mutants that are a whole pipeline, or have an engine
+of their own, were not put into another one.
 """
 FORMAT = "conformance-flaws/1"
 

@@ -35,10 +35,10 @@ from floatref_conformance.mutants.in_drives import (
 )
 from floatref_conformance.mutants.in_processing import _use_engine
 from floatref_conformance.mutants.mutation import AUGMENTED, RECOMMENDED, SPATIAL, Mutation
-from floatref_conformance.resemblance.answers import ask_probes
 from floatref_conformance.resemblance.catalogue import rank_flaws, read_vectors
 from floatref_conformance.resemblance.comparing import LEAST, MOST_FLAWS
 from floatref_conformance.resemblance.features import Features, measure_features
+from floatref_conformance.resemblance.probe_answers import ask_probes
 
 DATA = Path(__file__).parents[1] / "docs" / "data" / "resemblance.json"
 FORMAT = "conformance-resemblance/1"

@@ -10,7 +10,7 @@ from floatref.measures import high_pass
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.profile import Profile
 from floatref_conformance.checks.scoring import bridge, compare
-from floatref_conformance.resemblance.answers import Answer
+from floatref_conformance.resemblance.probe_answers import Answer
 
 STEP_M = 0.1
 """Spacing of the points, in m; each is the mean of the profile's points before it."""

@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from floatref_conformance.resemblance.answers import Answer
 from floatref_conformance.resemblance.compared_path import ComparedPath, compare_paths
 from floatref_conformance.resemblance.event_features import list_event, list_flags
 from floatref_conformance.resemblance.parked_features import list_bounce, list_parked
+from floatref_conformance.resemblance.probe_answers import Answer
 from floatref_conformance.resemblance.road_features import (
     Feature,
     list_gain,

@@ -7,9 +7,9 @@ from floatref_conformance.devices.interface import CAPABILITIES, Device
 from floatref_conformance.judge.exercise import describe
 from floatref_conformance.mutants import MUTATIONS
 from floatref_conformance.mutants.device import make
-from floatref_conformance.resemblance.answers import ask_probes
 from floatref_conformance.resemblance.catalogue import GOOD, FlawVector, Vectors
 from floatref_conformance.resemblance.features import Features, measure_features
+from floatref_conformance.resemblance.probe_answers import ask_probes
 
 Show = Callable[[str], None]
 

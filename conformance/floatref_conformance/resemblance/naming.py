@@ -7,7 +7,6 @@ from floatref_conformance.checks.likeness import Likeness, Resemblance
 from floatref_conformance.checks.verdict import Outcome, RunResult, Verdict
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.judge.exercise import close
-from floatref_conformance.resemblance.answers import ask_probes
 from floatref_conformance.resemblance.catalogue import find_nearest
 from floatref_conformance.resemblance.comparing import LEAST, MOST_FLAWS
 from floatref_conformance.resemblance.fault_reasons import (
@@ -16,6 +15,7 @@ from floatref_conformance.resemblance.fault_reasons import (
     name_stream_flaws,
 )
 from floatref_conformance.resemblance.features import Features, measure_features
+from floatref_conformance.resemblance.probe_answers import ask_probes
 
 REPORT, PROBES = "report", "probes"
 """What shows a flaw: the faults in the report, or the probes."""

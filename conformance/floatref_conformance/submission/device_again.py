@@ -11,12 +11,12 @@ from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.exercise import close, describe
 from floatref_conformance.render.report import NAME as REPORT
+from floatref_conformance.resemblance.reviewing import KEY, compare_features, read_features
 from floatref_conformance.submission.agreement import REMADE, compare_results
 from floatref_conformance.submission.document import NAME, read_json
 from floatref_conformance.submission.origins import hash_device
 from floatref_conformance.submission.rejudging import Repetition
 from floatref_conformance.submission.rescoring import judge_on
-from floatref_conformance.submission.resembling import KEY, compare_features, read_features
 from floatref_conformance.submission.stored_answers import refuse_without
 
 HARMLESS = ("builtin", "mutant")

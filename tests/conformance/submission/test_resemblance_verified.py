@@ -1,5 +1,7 @@
 """The flaws in a report are found again from its features; others are named."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from floatref_conformance.checks.likeness import resemblance_document
@@ -8,7 +10,7 @@ from floatref_conformance.resemblance.catalogue import read_vectors
 from floatref_conformance.resemblance.naming import name_by_features
 from floatref_conformance.submission.findings import Verification
 from floatref_conformance.submission.origins import describe_suite
-from floatref_conformance.submission.resembling import check_resemblance
+from floatref_conformance.submission.verifying import check_resemblance
 
 KNOWN = Description("a", "1", "temporal", ())
 FAILED = {"id": "bounce", "outcome": "fail", "reason": "IRI 3 m/km"}
@@ -23,7 +25,8 @@ def report():
 
 def findings(report, suite=None):
     made = Verification()
-    check_resemblance(report, KNOWN, suite or describe_suite(), made)
+    submitted = SimpleNamespace(suite=suite or describe_suite(), fault="", describe=lambda: KNOWN)
+    check_resemblance(report, submitted, made)
     return made
 
 

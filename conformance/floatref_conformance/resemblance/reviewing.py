@@ -9,7 +9,6 @@ from floatref_conformance.checks.likeness import Resemblance, resemblance_docume
 from floatref_conformance.checks.verdict import Outcome, Verdict
 from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.render.report import NAME as REPORT
-from floatref_conformance.resemblance.answers import ask_probes
 from floatref_conformance.resemblance.comparing import LEAST
 from floatref_conformance.resemblance.fault_reasons import Judged
 from floatref_conformance.resemblance.features import Features, measure_features
@@ -19,8 +18,7 @@ from floatref_conformance.resemblance.naming import (
     name_by_report,
 )
 from floatref_conformance.resemblance.naming import REPORT as BY_REPORT
-from floatref_conformance.submission.findings import Verification
-from floatref_conformance.submission.origins import describe_suite
+from floatref_conformance.resemblance.probe_answers import ask_probes
 
 KEY = "resemblance"
 WHERE = f"{REPORT}: {KEY}"
@@ -28,35 +26,21 @@ REMADE = 0.05
 """By how much a feature of a device that is run again may differ: 5 % of a large error."""
 
 
-def check_resemblance(
-    report: Mapping[str, Any],
-    description: Description,
-    suite: Mapping[str, str],
-    verification: Verification,
-) -> None:
-    """Compare the flaws that ``report`` names with those that its own figures name here.
+def review(report: Mapping[str, Any], description: Description) -> str:
+    """Return in a line how ``report`` contradicts what its own figures name here; empty if not.
 
-    With other sources of the suite the catalogue may be another one, and nothing is compared.
+    InputError for checks without outcomes.
     """
-    stated = report.get(KEY)
-    if stated is None:
-        return
+    stated = report[KEY]
     if report.get("verdict") != Verdict.FAIL.value:
-        verification.contradict(WHERE, "is there, and the device did not fail")
-        return
-    if dict(suite) != describe_suite():
-        what = "the flaws that it resembles: the catalogue may be another one"
-        verification.not_repeated.append(what)
-        return
+        return "is there, and the device did not fail"
     features = read_features(stated)
     if features is None:
-        verification.contradict(WHERE, "has features that are no numbers by name")
-        return
+        return "has features that are no numbers by name"
     again = _find_again(report, stated, features, description)
     if stated != resemblance_document(again):
-        verification.contradict(WHERE, f"is not what the catalogue says: {_show(again)}")
-    else:
-        verification.repeated.append("the flaws that it resembles, from the stored features")
+        return f"is not what the catalogue says: {_show(again)}"
+    return ""
 
 
 def _find_again(
