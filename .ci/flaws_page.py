@@ -63,7 +63,9 @@ Some flaws have the same errors on the probes, and cannot be told apart by them:
 0.98); `pitch-sign`, `rates-swapped` and `gravity-left-out` are a wrong attitude under braking (0.95
 to 0.99). `throttle-flagged`, `offset-ignored` and `slip-believed` stay within the range of good
 devices on these probes, and are never named. Mutants that are a whole pipeline, or have an engine
-of their own, were not put into another one.
+of their own, were not put into another one. The spatial pipeline is one of the good devices whose
+range is taken off, the other Kalman smoother is not. Three firmwares in C with a flaw of their own
+(the accelerometer's sign, a laser that is 2 ms late, heights in feet) are named right, too.
 """
 FORMAT = "conformance-flaws/1"
 
