@@ -34,7 +34,7 @@ A picture has the mutant's profile, red, over the true one, wide and grey, which
 beyond 91 m, where it shows most on one of [the probes](conformance.md#resemblance). What it flags
 invalid is the orange bar below. Where a part of the run is shown, the profile is moved to the mean
 of the truth. Flaws of the protocol and of streams have no picture: their profiles are sound, or
-there is no profile.
+there is no profile. At stops and gaps the error of the sound pipeline is in the picture, too.
 
 This page and [the same as JSON](data/flaws.json) are written by `.ci/flaws_page.py`, pictures by
 `.ci/flaw_pictures.py`.
