@@ -12,6 +12,7 @@ from floatref_conformance.checks.sameness.invariance import InvarianceCheck
 from floatref_conformance.checks.sameness.repeatability import RepeatabilityCheck
 from floatref_conformance.checks.stationary.parked_checks import BOUNCE, QUIESCENT
 from floatref_conformance.devices.builtin import BUILTIN
+from floatref_conformance.devices.containers.container_device import CONTAINER
 from floatref_conformance.devices.executable import EXEC
 from floatref_conformance.devices.interface import DeviceKind
 from floatref_conformance.devices.python_device import PYTHON
@@ -47,6 +48,7 @@ class OwnPlugin:
         register(BUILTIN)
         register(PYTHON)
         register(EXEC)
+        register(CONTAINER)
         register(FILES)
         register(MUTANT)
 

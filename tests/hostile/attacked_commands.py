@@ -1,8 +1,8 @@
 """Where every command reads or writes a file that somebody else may have made.
 
 A key is a command and one of its parameters, as `named_places` finds them in the real groups; the
-words call the command with `{x}` in that place. `{run}`, `{csv}` and `{profile}` are sound files,
-`{out}` is a new name. `test_attacks.py` holds the lists complete.
+words call the command with `{x}` in that place. `{run}`, `{csv}`, `{profile}` and `{report}` are
+sound files, `{out}` is a new name. `test_attacks.py` holds the lists complete.
 """
 
 from collections.abc import Iterator
@@ -58,6 +58,7 @@ READ = {
     "conformance verify --device-file": "verify {csv} --device-file {x}",
     "conformance simulate run": "simulate {x}.json --out {out}",
     "conformance replay case": "replay {x} --device builtin:temporal-basic",
+    "conformance matrix reports": "matrix {report} {x}",
     "conformance certify --plan": "certify --plan {x}",
     "conformance certify --settings": (
         "certify {run} --reference {profile} --section 0:100 --settings {x}"
@@ -92,6 +93,7 @@ WRITTEN = {
     "conformance simulate --out": "simulate const_16 --out {x}",
     "conformance simulate --truth": "simulate const_16 --out {out} --truth {x}",
     "conformance submit --out": "submit --check stop --out {x}",
+    "conformance matrix --out": "matrix {report} --out {x}.html",
     "conformance sample --out": "sample --out {x} network",
     "conformance export --out": "export --out {x}",
     "conformance certify --report": "certify {profile} --reference {profile} --report {x}",

@@ -1,5 +1,6 @@
 """Hostile files: what is no file in place of one, damaged native files, names with controls."""
 
+import json
 import os
 import random
 import socket
@@ -53,6 +54,20 @@ KINDS: dict[str, Callable[[Path], None]] = {
     "long line": lambda path: path.write_bytes(b"1," * (1 << 20)) and None,
 }
 """What stands in place of a file, by name."""
+REPORT = {
+    "format": "conformance-report/1",
+    "edition": "2026.2",
+    "device": dict.fromkeys(("spec", "name", "version"), "firmware")
+    | {"architecture": "temporal", "capabilities": []},
+    "class": "nominal",
+    "class_reached": None,
+    "seed": 0,
+    "effort": "quick",
+    "verdict": "INCOMPLETE",
+    "checks": [],
+    "replayed": [],
+}
+"""A report of the judge without checks."""
 IN_PLACE_OF_A_TARGET = ("pipe", "socket", "loop", "zero", "terminal", "folder")
 """Those over which nothing may be written."""
 
@@ -74,9 +89,11 @@ def write_sound(folder: Path) -> dict[str, Path]:
     rows = "".join(f"{t},{20.0 * t}\n" for t in time[:200])
     (folder / "table.csv").write_text(f"time_s,distance\n{rows}", encoding="ascii")
     (folder / "can.asc").write_text(CAN, encoding="ascii")
+    (folder / "report.json").write_text(json.dumps(REPORT), encoding="ascii")
     for suffix, write in WRITERS.items():
         write(recording, folder / f"native{suffix}", None)
     names = {"run": "run", "profile": "profile", "csv": "table.csv", "can": "can.asc"}
+    names["report"] = "report.json"
     return {name: folder / file for name, file in names.items()}
 
 

@@ -20,6 +20,7 @@ COMMANDS = {
         "floatref_conformance.cli.submissions.verify:verify",
         "repeat what a submission rests on",
     ),
+    "matrix": ("floatref_conformance.cli.matrix.command:matrix", "put reports beside each other"),
     "export": ("floatref_conformance.cli.export:export", "write the recordings of all checks"),
     "explain": ("floatref_conformance.cli.explain:explain", "explain what a check asks, and why"),
     "selftest": ("floatref_conformance.cli.selftest:selftest", "test the suite itself"),

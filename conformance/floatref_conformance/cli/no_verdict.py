@@ -20,6 +20,7 @@ MISSING = {
     "selftest": "no counts",
     "certify": "no worksheet",
     "submit": "no archive",
+    "matrix": "no matrix",
 }
 """What a sub-command that stops early leaves its caller without; for others it is a verdict."""
 

@@ -64,7 +64,7 @@ def pass_variables(device: Device, variables: tuple[str, ...]) -> None:
 
 def tell_where_truth_is(device: Device) -> None:
     """Print a line on stderr if ``device`` is a program that could read the truth in the cache."""
-    if hasattr(device, "variables"):
+    if hasattr(device, "variables") and not getattr(device, "confined", False):
         click.echo(
             f"Note: the truth is in {cache_folder()}, which a device of this user could read; "
             "docs/conformance.md has what to do for a certificate",

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any, NoReturn
 
 from floatref_conformance.devices.process import Child, readable, start
@@ -53,13 +53,13 @@ class Session:
                 raise DeviceError(f"answered an error: {_text(answer, 'error')}")
             self.device = _description(answer)
 
-    def run(self, recording: Path, profile: Path, limit_s: float) -> None:
+    def run(self, recording: PurePath, profile: PurePath, limit_s: float) -> None:
         """Let the device process ``recording`` into ``profile`` within ``limit_s``.
 
         Raises DeviceSkipped if the device skips it, DeviceRefused if it answers an error,
         DeviceError if it fails, in one line, or DeviceHung.
         """
-        self._child.conceal(str(Path(profile).parent))
+        self._child.conceal(str(PurePath(profile).parent))
         with self._step("run"):
             command = {"cmd": "run", "recording": str(recording), "profile": str(profile)}
             answer = self._ask(command, limit_s)

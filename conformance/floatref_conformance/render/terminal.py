@@ -1,5 +1,6 @@
 """The terminal: a progress bar or plain lines while it runs, then a table and the verdict."""
 
+import os
 import textwrap
 from errno import EPIPE
 from typing import Any
@@ -112,10 +113,11 @@ class TerminalRenderer:
 def make_console(stderr: bool = False) -> PipedConsole:
     """Return a console of standard output, or of standard error.
 
-    It has `PLAIN_WIDTH` columns at least where it is no terminal.
+    It has `PLAIN_WIDTH` columns at least where it is no terminal and the variable COLUMNS of the
+    environment does not say how many.
     """
     console = PipedConsole(emoji=False, stderr=stderr)
-    if not console.is_terminal:
+    if not console.is_terminal and "COLUMNS" not in os.environ:
         console.width = max(console.width, PLAIN_WIDTH)
     return console
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.files.fingerprint import sha256 as sha256_of
+from floatref_conformance.devices.containers.container_device import ContainerDevice
 from floatref_conformance.devices.executable import ExecDevice
 from floatref_conformance.devices.interface import Device
 from floatref_conformance.devices.python_device import HOST
@@ -27,8 +28,9 @@ COMPILED = frozenset({".pyc", ".nbi", ".nbc"})
 def hash_device(device: Device, spec: str, files: Iterable[Path] = ()) -> dict[str, str]:
     """Return the SHA-256 of what makes ``device``, and of further ``files``, by name.
 
-    Of a program these are the program and each file among its arguments; of a Python object all
-    modules of its package; of `files:` the delivered profiles; of the others our own packages.
+    Of a program these are the program and each file among its arguments; of a container its image;
+    of a Python object all modules of its package; of `files:` the delivered profiles; of the others
+    our own packages.
     Raises InputError for a file that cannot be read.
     """
     named = {path.name: sha256_of(path) for path in files}
@@ -38,6 +40,8 @@ def hash_device(device: Device, spec: str, files: Iterable[Path] = ()) -> dict[s
         # Not `Path.is_file`: an argument may be too long to be a name.
         here = [word for word in device.argv if os.path.isfile(device.folder / word)]
         return {_name(word, here): sha256_of(device.folder / word) for word in here} | named
+    if isinstance(device, ContainerDevice):
+        return {device.image: device.digest} | named
     if isinstance(device, RecordedDevice):
         return {PROFILE: _join(_hash_case(case) for case in cases(device.folder))} | named
     packages = (SDK,) if spec.startswith("builtin:") else (SDK, SUITE)

@@ -32,6 +32,7 @@ TARGETS = {
     "simulate": ("simulate", "case.json", "--out", "old"),
     "export": ("export", "--out", "old"),
     "submit": ("submit", "--out", "old"),
+    "matrix": ("matrix", "report", "--out", "old.html"),
     "sample": ("sample", "network", "--out", "old"),
     "view": ("view", "road", "-o", "old.html"),
     "plot": ("plot", "road", "-o", "old.png"),

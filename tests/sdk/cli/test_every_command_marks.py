@@ -127,6 +127,7 @@ CHECKS: dict[str, Callable[[Drawn], None] | str] = {
     "conformance replay": "as run",
     "conformance submit": "as run",
     "conformance verify": "compares figures with those of an archive",
+    "conformance matrix": "shows what reports state, flagged lengths among the quantities",
     "conformance certify": "shows flagged m beside the IRI of every run",
     "conformance table": "judges pipelines on roads that are known, at all points by intention",
     "conformance faults": "as table; what is wrong and not flagged is its subject",

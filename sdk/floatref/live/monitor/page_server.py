@@ -68,21 +68,23 @@ class _Source:
 
     def __init__(self, shown: Callable[[], Shown]) -> None:
         self._shown, self._lock = shown, Lock()
-        self._data, self._made_s = b"", -OLDEST_S
+        self._data, self._is_last, self._made_s = b"", False, -OLDEST_S
         self.asked_s: float | None = None
         self.closing = self.gave_last = False
 
-    def data(self) -> bytes:
+    def data(self) -> tuple[bytes, bool]:
+        """Return the state, and whether it says that it is the last."""
         with self._lock:
             now_s = time.monotonic()
             self.asked_s = now_s
             if self.closing or now_s - self._made_s >= OLDEST_S:
                 shown = self._shown()
                 document = {"format": "floatref-operator/1", "floatref": __version__}
-                document |= shown.document() | {"closing": self.closing}
+                self._is_last = self.closing
+                document |= shown.document() | {"closing": self._is_last}
                 self._data = json.dumps(document, allow_nan=False).encode()
                 self._made_s = time.monotonic()
-            return self._data
+            return self._data, self._is_last
 
 
 class _Server(ThreadingHTTPServer):
@@ -131,9 +133,10 @@ class _Handler(BaseHTTPRequestHandler):
             policy = {"Content-Security-Policy": self.server.policy}
             self._answer(HTTPStatus.OK, self.server.page, "text/html; charset=utf-8", policy)
         elif self.path == "/state.json":
-            data = self.server.source.data()
+            data, is_last = self.server.source.data()
             self._answer(HTTPStatus.OK, data, "application/json")
-            self.server.source.gave_last = self.server.source.closing
+            # A run that ends meanwhile has not been seen to end.
+            self.server.source.gave_last |= is_last
         else:
             self._answer(HTTPStatus.NOT_FOUND, b"there is / and /state.json\n")
 

@@ -7,7 +7,7 @@ import json
 import re
 import socket
 from dataclasses import replace
-from threading import Event, Thread
+from threading import Event, Thread, Timer
 
 import numpy as np
 import pytest
@@ -150,6 +150,28 @@ def test_an_open_page_gets_the_last_state(monkeypatch):
     assert json.loads(last[-1])["status"] == "complete"
     with pytest.raises(OSError, match=r"refused|reset"):
         ask(port)
+
+
+def test_a_state_from_before_the_end_is_not_taken_for_the_last(monkeypatch):
+    monkeypatch.setattr(page_server_module, "PARTING_S", WAIT_S)
+    monitor, given = RunMonitor("run"), []
+    handler = page_server_module._Handler
+    answer = handler._answer
+
+    def answer_late(self, status, body, *more):
+        answer(self, status, body, *more)
+        given.append(json.loads(body)["closing"])
+        # The run ends while this answer, made before, is on its way.
+        self.server.source.closing = True
+
+    monkeypatch.setattr(handler, "_answer", answer_late)
+    with page_server(monitor.shown, 0) as address:
+        port = int(address.rstrip("/").rpartition(":")[2])
+        ask(port, "/state.json")
+        later = Timer(0.3, ask, (port, "/state.json"))
+        later.start()
+    later.join(WAIT_S)
+    assert given == [False, True]
 
 
 def test_a_port_that_is_taken_is_one_line(served):
