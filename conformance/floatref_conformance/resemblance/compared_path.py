@@ -73,9 +73,11 @@ def compare_paths(answer: Answer) -> Iterator[ComparedPath]:
         body, speed = _motion(answer, pair.track, pair.distance_m)
         rows = (pair.distance_m, pair.truth, bridge(limited, pair.truth), body, speed)
         shares = (np.isnan(limited).astype(float), (~pair.valid).astype(float))
-        coarse = [_means(row, count) for row in (*rows, *shares)]
+        x, true, found, moved, driven = (_means(row, count) for row in rows)
+        missing, flagged = (_means(row, count) for row in shares)
         track = profile.track(pair.track)
         fine = np.clip(track.elevation, -HUGE_M, HUGE_M)
+        coarse = (x, true, found, moved, driven, missing, flagged)
         yield ComparedPath(pair.track, *coarse, fine, profile.interval_m)
 
 
