@@ -9,6 +9,7 @@ from typing import Any
 
 from floatref.values.profile import Profile
 from floatref_conformance.checks.evidence import Evidence
+from floatref_conformance.checks.likeness import Resemblance
 from floatref_conformance.checks.nees import NeesEnds, PathNees
 from floatref_conformance.classes import DeviceClass, Limits, lowest
 from floatref_conformance.editions import EDITION
@@ -203,7 +204,8 @@ class RunResult:
     ``timeout_s``, the time for a recording, and ``report``, the folder of the report, are as the
     user gave them; None if not given. ``edition`` is the name of the checks' edition, and
     ``variables`` are those of the environment that the device got on request. ``streams`` has the
-    checks of streams, empty for a device that does not stream.
+    checks of streams, empty for a device that does not stream. ``resemblance`` has the flaws that a
+    failing device resembles; None where nobody asked.
     """
 
     device: Mapping[str, Any]
@@ -217,6 +219,7 @@ class RunResult:
     edition: str = EDITION
     streams: tuple[CheckResult, ...] = ()
     variables: tuple[str, ...] = ()
+    resemblance: Resemblance | None = None
 
     @property
     def verdict(self) -> Verdict:

@@ -1,7 +1,7 @@
 """Following a run: the terminal sees it all, the reports are written at its end."""
 
 import traceback
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NoReturn
 
 import click
@@ -16,16 +16,23 @@ from floatref_conformance.render.terminal import TerminalRenderer
 
 
 def follow(
-    plan: Plan, terminal: TerminalRenderer, writers: Sequence[Renderer], processes: int = 1
+    plan: Plan,
+    terminal: TerminalRenderer,
+    writers: Sequence[Renderer],
+    processes: int = 1,
+    complete: Callable[[RunResult], RunResult] = lambda result: result,
 ) -> RunResult:
     """Run ``plan``, show it on ``terminal``, have it written by ``writers``, return the result.
 
-    Without a verdict, or without a report of it, the command ends here with its exit code. The
-    run goes on when nobody reads what it shows.
+    ``complete`` adds to the result before anybody sees it. Without a verdict, or without a report
+    of it, the command ends here with its exit code. The run goes on when nobody reads what it
+    shows.
     """
     finished: list[RunFinished] = []
 
     def emit(event: Event) -> None:
+        if isinstance(event, RunFinished):
+            event = RunFinished(complete(event.result))
         try:
             terminal.handle(event)
         except BrokenPipeError:
@@ -37,7 +44,7 @@ def follow(
             _tell(event, writers)
 
     try:
-        result = run_in_processes(plan, emit, processes)
+        run_in_processes(plan, emit, processes)
     except SuiteError as fault:
         terminal.close()
         _end_at_fault(fault)
@@ -45,7 +52,7 @@ def follow(
         terminal.close()
     for event in finished:
         _tell(event, writers)
-    return result
+    return finished[-1].result
 
 
 def _tell(event: Event, writers: Sequence[Renderer]) -> None:

@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 from floatref_conformance.case_files import KeptCase
+from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.classes import DeviceClass, Effort
 from floatref_conformance.cli.options import (
     class_of,
@@ -22,6 +24,7 @@ from floatref_conformance.judge.search import check_installed
 from floatref_conformance.judge.stream_judging import StreamPlan
 from floatref_conformance.judge.waivers import read_waivers
 from floatref_conformance.registry import Registry
+from floatref_conformance.resemblance.naming import add_resemblance
 
 Wrapped = TypeVar("Wrapped", bound=Callable[..., Any])
 RECOMMENDED = "builtin:road-prior-smoother"
@@ -63,6 +66,12 @@ OPTIONS = (
         type=click.FloatRange(min=0, min_open=True),
         help="Time for one recording.  [default: 60 s and twice its length]",
     ),
+    click.option(
+        "--resemblance/--no-resemblance",
+        default=None,
+        help="Whether a device that fails gets short probes, and the flaw that it resembles most "
+        "is named.  [default: without --check]",
+    ),
 )
 
 
@@ -84,6 +93,7 @@ class Asked:
     seed: int
     waive: Path | None
     device_timeout: float | None
+    resemblance: bool | None
     edition: str
     variables: tuple[str, ...]
 
@@ -125,3 +135,12 @@ def make_plan(
     if plan.searching:
         check_installed()
     return plan
+
+
+def completing(asked: Asked, device: Device) -> Callable[[RunResult], RunResult]:
+    """Return what adds the flaws that ``device`` resembles to a result, if they are ``asked`` for.
+
+    Who asks for some checks alone repeats them often, and does without unless he asks for it.
+    """
+    wanted = not asked.ids if asked.resemblance is None else asked.resemblance
+    return partial(add_resemblance, device=device) if wanted else lambda result: result

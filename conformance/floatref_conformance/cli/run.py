@@ -12,6 +12,7 @@ from floatref_conformance.cli.following import follow
 from floatref_conformance.cli.judging_options import (
     RECOMMENDED,
     Asked,
+    completing,
     judging_options,
     make_plan,
 )
@@ -81,7 +82,7 @@ def run(
         if as_json:
             writers.append(JsonOutput(click.echo))
         terminal = TerminalRenderer(make_console(stderr=as_json), verbose)
-        finished = follow(plan, terminal, writers, jobs)
+        finished = follow(plan, terminal, writers, jobs, completing(asked, device))
     if asked.waive is not None:
         check_used(plan.waivers, finished, asked.waive)
     context.exit(finished.verdict.exit_code)

@@ -159,6 +159,7 @@ def _urgency(check: CheckResult, device_class: DeviceClass) -> tuple[int, float]
 
 def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
     device = result.device
+    alike = [("Resembles", line) for line in wording.resemblance_lines(result)]
     return (
         ("Class judged", result.device_class.value),
         ("Class reached", result.class_reached or "no class"),
@@ -168,6 +169,7 @@ def _facts(result: RunResult) -> tuple[tuple[str, str], ...]:
         ("Device", f"{device['name']} {device['version']}"),
         ("Architecture", str(device["architecture"])),
         ("Capabilities", wording.sensors(device["architecture"], device["capabilities"])),
+        *alike,
     )
 
 

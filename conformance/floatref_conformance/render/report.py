@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from floatref.files.owners import own_name
+from floatref_conformance.checks.likeness import resemblance_document
 from floatref_conformance.checks.verdict import CheckResult, Measurement, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.judge.events import Event, RunFinished
@@ -60,6 +61,8 @@ def as_json(result: RunResult) -> dict[str, Any]:
     """Return ``result`` as the object of format conformance-report/1; NaN becomes null."""
     shown = result.streams_shown
     streams = {"stream_checks": [_check(c, result.device_class) for c in shown]} if shown else {}
+    found = result.resemblance
+    alike = {} if found is None else {"resemblance": finite(resemblance_document(found))}
     return {
         "format": "conformance-report/1",
         "edition": result.edition,
@@ -72,6 +75,7 @@ def as_json(result: RunResult) -> dict[str, Any]:
         "checks": [_check(check, result.device_class) for check in result.checks],
         **streams,
         "replayed": [finite(replayed) for replayed in result.replayed],
+        **alike,
     }
 
 

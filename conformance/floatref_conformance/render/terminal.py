@@ -136,6 +136,7 @@ def result_lines(result: RunResult, verbose: bool = False, width: int = PLAIN_WI
     lines += [_wrap(line, width) for line in wording.not_run_lines(result)]
     lines.append(wording.verdict_line(result))
     if result.verdict is Verdict.FAIL:
+        lines += [_wrap(line, width) for line in wording.resemblance_lines(result)]
         lines += _what_to_do(result)
     return lines
 

@@ -17,6 +17,7 @@ WHERE = "this case alone, where the run was started"
 """Where a command to run a case again is to be given."""
 UNJUDGED = (Outcome.SKIP, Outcome.NOT_APPLICABLE)
 """Outcomes that do not judge the device."""
+INDICATION = "This is an indication, no proof."
 
 
 def sensors(architecture: str, capabilities: Sequence[str]) -> str:
@@ -149,6 +150,20 @@ def verdict_line(result: RunResult) -> str:
     """Return the verdict in one line."""
     settings = f"class {result.device_class}, seed {result.seed}, effort {result.effort}"
     return f"{result.verdict}: {summary(result)} ({settings})"
+
+
+def resemblance_lines(result: RunResult) -> list[str]:
+    """Return which flaws a failing device resembles; empty where nobody asked."""
+    found = result.resemblance
+    if found is None:
+        return []
+    if found.note:
+        return [f"Resemblance: unknown, since {found.note}"]
+    if not found.flaws:
+        return ["Resembles no flaw of the catalogue"]
+    named = [f"{one.flaw} ({one.mutant}, {100 * one.alike:.0f} % alike)" for one in found.flaws]
+    rest = f"; then {'; '.join(named[1:])}" if named[1:] else ""
+    return [f"Resembles most: {named[0]}{rest}. {INDICATION}"]
 
 
 def simplest(counterexample: Mapping[str, Any]) -> str:

@@ -10,11 +10,14 @@ from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.exercise import close, describe
+from floatref_conformance.render.report import NAME as REPORT
+from floatref_conformance.resemblance.reviewing import KEY, compare_features, read_features
 from floatref_conformance.submission.agreement import REMADE, compare_results
-from floatref_conformance.submission.document import NAME
+from floatref_conformance.submission.document import NAME, read_json
 from floatref_conformance.submission.origins import hash_device
 from floatref_conformance.submission.rejudging import Repetition
 from floatref_conformance.submission.rescoring import judge_on
+from floatref_conformance.submission.stored_answers import refuse_without
 
 HARMLESS = ("builtin", "mutant")
 """Kinds of devices that run without being asked for: their code is in this checkout."""
@@ -76,6 +79,18 @@ def _run_again(repetition: Repetition, chosen: GivenDevice, every_case: bool) ->
             verification.contradict(f"device: {case.check}, {case.name}", difference)
     what = f"{len(cases)} cases on the device {chosen.spec}"
     (verification.repeated if cases else verification.not_repeated).append(what)
+    _probe_again(repetition, chosen.device, description)
+
+
+def _probe_again(repetition: Repetition, device: Device, description: Description) -> None:
+    """Give ``device`` the probes again, if the report has what came of them."""
+    report = read_json(refuse_without(repetition.members, REPORT), REPORT)
+    stated = report.get(KEY) if isinstance(report, dict) else None
+    if stated is None or not read_features(stated):
+        return
+    for difference in compare_features(stated, device, description):
+        repetition.verification.contradict("device: probes", difference)
+    repetition.verification.repeated.append("the probes on the device")
 
 
 def _judge_again(

@@ -8,10 +8,12 @@ from typing import Any
 from floatref.errors import InputError
 from floatref_conformance.checks.verdict import CaseResult, Outcome, verdict_on
 from floatref_conformance.errors import SuiteError
+from floatref_conformance.judge.runner import UNDESCRIBED
 from floatref_conformance.judge.waivers import NO_REASON
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.report import NAME as REPORT
+from floatref_conformance.resemblance.reviewing import KEY, WHERE, review
 from floatref_conformance.submission.checksums import SUMS, compare_sums
 from floatref_conformance.submission.device_again import GivenDevice, repeat_device
 from floatref_conformance.submission.document import NAME, Submission, read_json, read_submission
@@ -33,8 +35,8 @@ from floatref_conformance.submission.signatures import SIGNATURES, check_signatu
 from floatref_conformance.submission.stored_answers import refuse_without
 
 RECORDED = "files:"
-TOLD_APART = ("verdict", "stream_checks")
-"""Keys of a report that are compared by rule, since checks of streams have no stored results."""
+TOLD_APART = ("verdict", "stream_checks", KEY)
+"""Keys of a report that are compared by rule: streams and probes have no stored results."""
 
 
 @dataclass(frozen=True)
@@ -125,6 +127,7 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
     for place, what in compare_reports(_comparable(report), _comparable(again)):
         verification.contradict(f"{REPORT}: {place}", what)
     _compare_verdict(report, again, verification)
+    check_resemblance(report, repetition.submission, verification)
     count = sum(map(len, results.values()))
     verification.repeated.append(f"the report, figure by figure, from the results of {count} cases")
     streams = report.get("stream_checks")
@@ -135,6 +138,27 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
 
 def _comparable(report: Mapping[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in report.items() if key not in TOLD_APART}
+
+
+def check_resemblance(
+    report: Mapping[str, Any], submission: Submission, verification: Verification
+) -> None:
+    """Compare the flaws that ``report`` names, if it does, with those of the catalogue here.
+
+    With other sources of the suite the catalogue may be another one, and nothing is compared.
+    """
+    if report.get(KEY) is None:
+        return
+    if dict(submission.suite) != describe_suite():
+        what = "the flaws that it resembles: the catalogue may be another one"
+        verification.not_repeated.append(what)
+        return
+    known = UNDESCRIBED if submission.fault else submission.describe()
+    contradiction = review(report, known)
+    if contradiction:
+        verification.contradict(WHERE, contradiction)
+    else:
+        verification.repeated.append("the flaws that it resembles, from the stored features")
 
 
 def _compare_verdict(

@@ -10,7 +10,12 @@ from floatref.files import read_bytes
 from floatref.files.atomic import check_target
 from floatref_conformance.cli.edition_option import edition_option
 from floatref_conformance.cli.following import follow
-from floatref_conformance.cli.judging_options import Asked, judging_options, make_plan
+from floatref_conformance.cli.judging_options import (
+    Asked,
+    completing,
+    judging_options,
+    make_plan,
+)
 from floatref_conformance.cli.options import env_option
 from floatref_conformance.judge.exercise import close_on_error
 from floatref_conformance.judge.waivers import NO_REASON, check_used
@@ -83,7 +88,8 @@ def submit(
         known = describe_plan(plan, files, stated)
     collected = CaseCollector(plan.device_class)
     terminal = TerminalRenderer(make_console(stderr=True), False)
-    finished = follow(plan, terminal, [collected])
+    complete = completing(asked, device)
+    finished = follow(plan, terminal, [collected], complete=complete)
     if asked.waive is not None:
         check_used(plan.waivers, finished, asked.waive)
     members = make_members(plan, collected, known)

@@ -1,0 +1,1 @@
+"""Which flaw of the catalogue a failing device resembles: probes, features and a comparison."""
