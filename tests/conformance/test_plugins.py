@@ -41,7 +41,7 @@ def kind(fake_device):
 
 def test_the_suites_own_devices_and_checks_come_from_a_plugin():
     registry = collected()
-    assert set(registry.kinds) == {"builtin", "python", "exec", "files", "mutant"}
+    assert set(registry.kinds) == {"builtin", "python", "exec", "container", "files", "mutant"}
     assert list(registry.checks) == [id_ for id_ in IDS if id_ in registry.checks]
     assert {"quiescent", "bounce"} <= set(registry.checks)
     assert registry.broken == ()
