@@ -61,7 +61,7 @@ def find_layout(titles: Sequence[str], unstated: str = "") -> Layout:
     distances without values behind it, for values without a unit and for a file without any
     elevation.
     """
-    pairs = [pair._replace(unit=pair.unit or unstated) for pair in list_pairs(titles)]
+    pairs = list_pairs(titles, unstated)
     for pair in pairs:
         if not pair.unit:
             raise InputError(
@@ -89,8 +89,10 @@ def _track_name(name: str) -> str:
     return WHEEL_PATHS.get(name.lower(), name[-LONGEST_NAME:].lstrip(" ._-"))
 
 
-def list_pairs(titles: Sequence[str]) -> list[Pair]:
+def list_pairs(titles: Sequence[str], unstated: str = "") -> list[Pair]:
     """Return the pairs of columns in their order; other columns between them are passed over.
+
+    ``unstated`` is the unit of values whose title states none.
 
     Raises InputError for a column of distances that has no column of values behind it.
     """
@@ -103,7 +105,7 @@ def list_pairs(titles: Sequence[str]) -> list[Pair]:
             raise InputError(
                 f"column {titles[place].strip()} has no column of values behind it; export it again"
             )
-        pairs.append(_pair(titles, place, match))
+        pairs.append(_pair(titles, place, match, unstated))
     return pairs
 
 
@@ -121,10 +123,10 @@ def unit_of(pair: Pair) -> tuple[Ratio, Ratio]:
     return along, up or (1, 1)
 
 
-def _pair(titles: Sequence[str], place: int, match: re.Match[str]) -> Pair:
+def _pair(titles: Sequence[str], place: int, match: re.Match[str], unstated: str) -> Pair:
     title = titles[place + 1].strip()
     with_unit = UNIT.fullmatch(title)
-    bare, unit = (with_unit["title"], with_unit["unit"]) if with_unit else (title, "")
+    bare, unit = (with_unit["title"], with_unit["unit"]) if with_unit else (title, unstated)
     name = match["name"]
     if not (name and bare.startswith(name)):
         # Viewers may put a file before the channel; the section is behind the last underscore.
