@@ -66,6 +66,10 @@ devices on these probes, and are never named. Mutants that are a whole pipeline,
 of their own, were not put into another one. The spatial pipeline is one of the good devices whose
 range is taken off, the other Kalman smoother is not. Three firmwares in C with a flaw of their own
 (the accelerometer's sign, a laser that is 2 ms late, heights in feet) are named right, too.
+
+A fault of the protocol, such as a crash or no answer in time, is named by the report and not by
+probes, as 100 % alike. One such fault in one case outranks all else: where 14 other checks fail by
+their figures, what is named is the fault still, and mending it shows what the figures resemble.
 """
 FORMAT = "conformance-flaws/1"
 

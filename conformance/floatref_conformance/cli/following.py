@@ -6,6 +6,7 @@ from typing import NoReturn
 
 import click
 
+from floatref.cli.program.interrupts import INTERRUPTED
 from floatref_conformance.checks.verdict import RunResult
 from floatref_conformance.cli.no_verdict import FAULT_OF_THE_SUITE, drop_output, in_one_line
 from floatref_conformance.errors import SuiteError
@@ -13,6 +14,7 @@ from floatref_conformance.judge.events import Event, Renderer, RunFinished
 from floatref_conformance.judge.in_processes import run_in_processes
 from floatref_conformance.judge.runner import Plan
 from floatref_conformance.render.terminal import TerminalRenderer
+from floatref_conformance.resemblance.naming import was_interrupted
 
 
 def follow(
@@ -53,6 +55,17 @@ def follow(
     for event in finished:
         _tell(event, writers)
     return finished[-1].result
+
+
+def end_with(context: click.Context, result: RunResult) -> NoReturn:
+    """End the command with the exit code of ``result``, or that of Ctrl-C during the probes.
+
+    Its reports, or its archive, are written then.
+    """
+    if was_interrupted(result):
+        click.echo("Interrupted: the verdict is kept, without the flaw that it resembles", err=True)
+        context.exit(INTERRUPTED)
+    context.exit(result.verdict.exit_code)
 
 
 def _tell(event: Event, writers: Sequence[Renderer]) -> None:

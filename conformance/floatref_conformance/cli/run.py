@@ -8,7 +8,7 @@ import click
 
 from floatref_conformance.case_files import read_cases
 from floatref_conformance.cli.edition_option import edition_option
-from floatref_conformance.cli.following import follow
+from floatref_conformance.cli.following import end_with, follow
 from floatref_conformance.cli.judging_options import (
     RECOMMENDED,
     Asked,
@@ -85,4 +85,4 @@ def run(
         finished = follow(plan, terminal, writers, jobs, completing(asked, device))
     if asked.waive is not None:
         check_used(plan.waivers, finished, asked.waive)
-    context.exit(finished.verdict.exit_code)
+    end_with(context, finished)

@@ -1,7 +1,7 @@
 """The flaws that a report says its device resembles, found again from what the archive holds."""
 
 from collections.abc import Mapping
-from math import isfinite
+from dataclasses import dataclass
 from typing import Any
 
 from floatref.errors import InputError
@@ -11,19 +11,24 @@ from floatref_conformance.devices.interface import Description, Device
 from floatref_conformance.render.report import NAME as REPORT
 from floatref_conformance.resemblance.comparing import LEAST
 from floatref_conformance.resemblance.fault_reasons import Judged
-from floatref_conformance.resemblance.features import Features, measure_features
+from floatref_conformance.resemblance.features import Features
 from floatref_conformance.resemblance.naming import (
+    NO_ANSWERS,
     PROBES,
+    is_left_out,
     name_by_features,
+    name_by_probes,
     name_by_report,
 )
 from floatref_conformance.resemblance.naming import REPORT as BY_REPORT
-from floatref_conformance.resemblance.probe_answers import ask_probes
 
 KEY = "resemblance"
 WHERE = f"{REPORT}: {KEY}"
-REMADE = 0.05
-"""By how much a feature of a device that is run again may differ: 5 % of a large error."""
+REMADE = 0.1
+"""By how much a feature of a device that is run again may differ, on another machine too: 10 % of
+a large error."""
+LARGEST = 711.0
+"""A feature is asinh of a number, and that of the largest number is smaller."""
 
 
 def review(report: Mapping[str, Any], description: Description) -> str:
@@ -36,7 +41,9 @@ def review(report: Mapping[str, Any], description: Description) -> str:
         return "is there, and the device did not fail"
     features = read_features(stated)
     if features is None:
-        return "has features that are no numbers by name"
+        return f"has features that are no numbers by name, up to {LARGEST:g}"
+    if not features and stated.get("found_by") == PROBES and not _is_note(stated):
+        return "has neither features nor the reason why there are none"
     again = _find_again(report, stated, features, description)
     if stated != resemblance_document(again):
         return f"is not what the catalogue says: {_show(again)}"
@@ -49,19 +56,71 @@ def _find_again(
     features: Features,
     description: Description,
 ) -> Resemblance:
-    """Return the resemblance that follows from a report; with its note, if it has one."""
+    """Return the resemblance that follows from a report; with its note, if it has no features."""
     by_report = name_by_report(_read(report, "checks"), _read(report, "stream_checks"))
     if by_report:
         return Resemblance(BY_REPORT, by_report, 1.0)
-    if stated.get("note"):
+    if not features:
         return Resemblance(PROBES, least=LEAST, features=features, note=str(stated["note"]))
     return name_by_features(features, description)
 
 
-def compare_features(stated: Any, device: Device, description: Description) -> list[str]:
-    """Return in a line each feature that the device does not have when it is run again."""
-    before = read_features(stated) or {}
-    now = measure_features(ask_probes(device, description))
+def _is_note(stated: Mapping[str, Any]) -> bool:
+    """Return whether a report without features says why in words that a run has for it."""
+    note = str(stated.get("note"))
+    return note == NO_ANSWERS or is_left_out(note)
+
+
+def by_word(report: Mapping[str, Any]) -> str:
+    """Return why the report alone says which flaws its device resembles; empty if they follow.
+
+    They follow from features, or from faults in the report.
+    """
+    stated = report[KEY]
+    return str(stated["note"]) if stated["found_by"] == PROBES else ""
+
+
+@dataclass(frozen=True)
+class Probed:
+    """What the probes on a device show, of what a report states of it.
+
+    Attributes:
+        differences: what contradicts, in a line each.
+        missing: why nothing was compared, in one line; empty if it was.
+    """
+
+    differences: tuple[str, ...] = ()
+    missing: str = ""
+
+
+def probe_again(
+    report: Mapping[str, Any], device: Device, description: Description
+) -> Probed | None:
+    """Return what the probes on ``device`` show; None where they name no flaw in ``report``.
+
+    That is where nobody asked for flaws, or faults in the report name them. A report that says why
+    its probes were not finished states nothing that could be wrong.
+    """
+    stated = report.get(KEY)
+    if report.get("verdict") != Verdict.FAIL.value or not isinstance(stated, dict):
+        return None
+    if name_by_report(_read(report, "checks"), _read(report, "stream_checks")):
+        return None
+    before, note = read_features(stated) or {}, str(stated.get("note"))
+    now = name_by_probes(device, description)
+    if not now.features:
+        return Probed(missing=now.note)
+    if before:
+        # Its flaws follow from these, which the review of the report has compared.
+        return Probed(tuple(_compare_features(before, now.features)))
+    here = f"here {len(now.features)} features name {_show(now)}"
+    if is_left_out(note):
+        return Probed(missing=f"in the report, {note}; {here}")
+    return Probed((f"the report has no features, {here}",))
+
+
+def _compare_features(before: Features, now: Features) -> list[str]:
+    """Return in a line each feature that differs."""
     return [
         f"{name} is {before.get(name)}, here it is {now.get(name)}"
         for name in sorted(before.keys() | now.keys())
@@ -75,7 +134,7 @@ def read_features(stated: Any) -> Features | None:
     if not isinstance(found, dict):
         return None
     usable = all(
-        x is None or (isinstance(x, (int, float)) and not isinstance(x, bool) and isfinite(x))
+        x is None or (isinstance(x, (int, float)) and not isinstance(x, bool) and abs(x) <= LARGEST)
         for x in found.values()
     )
     return found if usable else None

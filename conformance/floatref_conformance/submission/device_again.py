@@ -11,7 +11,7 @@ from floatref_conformance.editions.edition import find_edition
 from floatref_conformance.errors import DeviceError
 from floatref_conformance.judge.exercise import close, describe
 from floatref_conformance.render.report import NAME as REPORT
-from floatref_conformance.resemblance.reviewing import KEY, compare_features, read_features
+from floatref_conformance.resemblance.reviewing import probe_again
 from floatref_conformance.submission.agreement import REMADE, compare_results
 from floatref_conformance.submission.document import NAME, read_json
 from floatref_conformance.submission.origins import hash_device
@@ -83,14 +83,18 @@ def _run_again(repetition: Repetition, chosen: GivenDevice, every_case: bool) ->
 
 
 def _probe_again(repetition: Repetition, device: Device, description: Description) -> None:
-    """Give ``device`` the probes again, if the report has what came of them."""
+    """Give ``device`` the probes again, if the report says what it resembles, or why not."""
+    verification = repetition.verification
     report = read_json(refuse_without(repetition.members, REPORT), REPORT)
-    stated = report.get(KEY) if isinstance(report, dict) else None
-    if stated is None or not read_features(stated):
+    found = probe_again(report, device, description) if isinstance(report, dict) else None
+    if found is None:
         return
-    for difference in compare_features(stated, device, description):
-        repetition.verification.contradict("device: probes", difference)
-    repetition.verification.repeated.append("the probes on the device")
+    for difference in found.differences:
+        verification.contradict("device: probes", difference)
+    if found.missing:
+        verification.not_repeated.append(f"the probes on the device: {found.missing}")
+    else:
+        verification.repeated.append("the probes on the device")
 
 
 def _judge_again(

@@ -6,14 +6,14 @@ from pathlib import Path
 from typing import Any
 
 from floatref.errors import InputError
-from floatref_conformance.checks.verdict import CaseResult, Outcome, verdict_on
+from floatref_conformance.checks.verdict import CaseResult, Outcome, Verdict, verdict_on
 from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.runner import UNDESCRIBED
 from floatref_conformance.judge.waivers import NO_REASON
 from floatref_conformance.plugins import load_registry
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.report import NAME as REPORT
-from floatref_conformance.resemblance.reviewing import KEY, WHERE, review
+from floatref_conformance.resemblance.reviewing import KEY, WHERE, by_word, review
 from floatref_conformance.submission.checksums import SUMS, compare_sums
 from floatref_conformance.submission.device_again import GivenDevice, repeat_device
 from floatref_conformance.submission.document import NAME, Submission, read_json, read_submission
@@ -147,18 +147,22 @@ def check_resemblance(
 
     With other sources of the suite the catalogue may be another one, and nothing is compared.
     """
+    what = "the flaws that it resembles"
     if report.get(KEY) is None:
+        if report.get("verdict") == Verdict.FAIL.value:
+            verification.not_repeated.append(f"{what}: the report does not have them")
         return
     if dict(submission.suite) != describe_suite():
-        what = "the flaws that it resembles: the catalogue may be another one"
-        verification.not_repeated.append(what)
+        verification.not_repeated.append(f"{what}: the catalogue may be another one")
         return
     known = UNDESCRIBED if submission.fault else submission.describe()
     contradiction = review(report, known)
     if contradiction:
         verification.contradict(WHERE, contradiction)
+    elif note := by_word(report):
+        verification.not_repeated.append(f"{what}: by the word of the report, {note}")
     else:
-        verification.repeated.append("the flaws that it resembles, from the stored features")
+        verification.repeated.append(f"{what}, from the stored features or faults")
 
 
 def _compare_verdict(

@@ -19,10 +19,9 @@ from floatref_conformance.resemblance.catalogue import (
 )
 from floatref_conformance.resemblance.comparing import LEAST, MOST_FLAWS
 from floatref_conformance.resemblance.making import measure_device
+from floatref_conformance.resemblance.reviewing import REMADE
 
 NOMINAL = Description("a", "1", "temporal", ())
-FEATURE = 0.1
-"""By how much a feature may differ on another machine."""
 
 
 def test_every_flaw_has_its_vector_or_its_fault():
@@ -73,4 +72,4 @@ def test_drawn_mutants_and_the_recommended_pipeline_have_the_stored_vectors():
         _, features = measure_device(device)
         stored = {n: x for n, x in drawn[name].items() if n in features}
         for feature, value in features.items():
-            assert value == pytest.approx(stored[feature], abs=FEATURE), (name, feature)
+            assert value == pytest.approx(stored[feature], abs=REMADE), (name, feature)

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from floatref.cli.program.interrupts import Interrupt
 from floatref_conformance.checks.verdict import CheckResult, Outcome, RunResult
 from floatref_conformance.classes import DeviceClass
 from floatref_conformance.devices.interface import Description
@@ -13,7 +14,13 @@ from floatref_conformance.render.report import as_json
 from floatref_conformance.render.wording import INDICATION, resemblance_lines
 from floatref_conformance.resemblance import naming
 from floatref_conformance.resemblance.catalogue import read_vectors
-from floatref_conformance.resemblance.naming import add_resemblance, name_by_features
+from floatref_conformance.resemblance.naming import (
+    add_resemblance,
+    name_by_features,
+    was_interrupted,
+)
+from floatref_conformance.resemblance.probe_answers import ProbesTooLong
+from floatref_conformance.resemblance.reviewing import by_word, review
 from floatref_conformance.schemas import enforce
 
 ABOUT = {"spec": "a:b", "name": "a", "version": "1", "architecture": "temporal", "capabilities": ()}
@@ -61,6 +68,34 @@ def test_an_error_here_is_a_note_and_no_verdict_is_lost(monkeypatch):
     assert found.verdict.value == "FAIL"
     assert "ZeroDivisionError: out of luck" in found.resemblance.note
     assert "out of luck" in resemblance_lines(found)[0]
+
+
+def fail_with(error):
+    def fail(*_, **__):
+        raise error
+
+    return fail
+
+
+@pytest.mark.parametrize(
+    ("error", "note"),
+    [
+        (Interrupt(), naming.INTERRUPTED),
+        (ProbesTooLong(), naming.TOO_LONG),
+        (ValueError("bad"), "not compared: ValueError: bad"),
+    ],
+)
+def test_what_ends_the_probes_is_a_note_that_a_review_accepts(monkeypatch, error, note):
+    monkeypatch.setattr(naming, "ask_probes", fail_with(error))
+    device = SimpleNamespace()
+    found = add_resemblance(result_of(Outcome.FAIL), device)
+    assert found.verdict.value == "FAIL"
+    assert found.resemblance.note == note
+    assert was_interrupted(found) == isinstance(error, Interrupt)
+    document = as_json(found)
+    enforce("conformance-report-1", document)
+    assert review(document, Description("a", "1", "temporal", ())) == ""
+    assert by_word(document) == note
 
 
 @pytest.mark.parametrize("mutant", ["laser-sign", "late-laser", "accelerometer-sign"])

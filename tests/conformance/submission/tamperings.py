@@ -9,6 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from floatref_conformance.resemblance.comparing import LEAST
+from floatref_conformance.resemblance.naming import INTERRUPTED, PROBES
+
 SUBMISSION, REPORT, RESULTS = "submission.json", "report.json", "results/toy.json"
 
 
@@ -30,6 +33,12 @@ class Tampering:
 
 def report(change):
     return lambda archive: archive.edit(REPORT, change)
+
+
+def resembling(note):
+    """State that no flaw was found, without features, for the reason ``note``."""
+    stated = {"found_by": PROBES, "flaws": [], "least": LEAST, "features": {}, "note": note}
+    return report(lambda found: found.update(resemblance=stated))
 
 
 def toy(found):
@@ -188,6 +197,8 @@ TAMPERINGS = (
     Tampering("a waiver added", submission(waivers=WAIVED), "", forged=True),
     Tampering("the hash of the device", device(files={"floatref": "0" * 64}), "", "device.files"),
     Tampering("the device's version", device(version="2"), "", "describes itself", forged=True),
+    Tampering("the flaws that it resembles", resembling("no time"), "resemblance"),
+    Tampering("these left out as if interrupted", resembling(INTERRUPTED), ""),
     Tampering("the statement", submission(statement="Passed."), ""),
     Tampering("the hash of the suite", submission(suite={"version": "1", "sha256": "0" * 64}), ""),
     Tampering("the environment", submission(environment={}), ""),

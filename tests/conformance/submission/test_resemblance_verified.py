@@ -3,11 +3,14 @@
 from types import SimpleNamespace
 
 import pytest
+from tests.conformance.submission.tamperings import resembling
 
 from floatref_conformance.checks.likeness import resemblance_document
 from floatref_conformance.devices.interface import Description
+from floatref_conformance.resemblance import naming
 from floatref_conformance.resemblance.catalogue import read_vectors
 from floatref_conformance.resemblance.naming import name_by_features
+from floatref_conformance.resemblance.reviewing import REMADE, Probed, probe_again
 from floatref_conformance.submission.findings import Verification
 from floatref_conformance.submission.origins import describe_suite
 from floatref_conformance.submission.verifying import check_resemblance
@@ -47,6 +50,12 @@ def test_what_was_not_changed_is_confirmed(report):
         lambda r: r["resemblance"].update(features={"bounce: motion": "3"}),
         lambda r: r["resemblance"].update(features=7),
         lambda r: r["resemblance"].update(note="no time"),
+        lambda r: r["resemblance"].update(flaws=[], note="no time"),
+        lambda r: r["resemblance"].update(flaws=[], note=naming.INTERRUPTED),
+        lambda r: r["resemblance"].update(flaws=[], features={}),
+        lambda r: r["resemblance"].update(flaws=[], features={}, note="no time"),
+        lambda r: r["resemblance"]["features"].update({"bounce: motion": 1e308}),
+        lambda r: r["resemblance"]["features"].update({"bounce: motion": 10**400}),
         lambda r: r.update(verdict="PASS"),
         lambda r: r["checks"].append(
             {"id": "stop", "outcome": "error", "reason": "stop-1: run: no answer within 60 s"}
@@ -58,6 +67,75 @@ def test_what_was_changed_is_named(report, change):
     change(report)
     (finding,) = findings(report).findings
     assert "resemblance" in finding.where
+
+
+@pytest.mark.parametrize("note", [naming.INTERRUPTED, naming.TOO_LONG, naming.NO_ANSWERS])
+def test_what_has_no_features_is_the_word_of_the_report(report, note):
+    report["resemblance"].update(flaws=[], features={}, note=note)
+    found = findings(report)
+    assert (found.findings, found.repeated) == ([], [])
+    (line,) = found.not_repeated
+    assert f"by the word of the report, {note}" in line
+
+
+def test_flaws_of_a_fail_that_are_not_there_are_named(report):
+    for changed in ({**report, "resemblance": None}, {"verdict": "FAIL", "checks": [FAILED]}):
+        (line,) = findings(changed).not_repeated
+        assert "resembles: the report does not have them" in line
+    assert findings({"verdict": "PASS", "resemblance": None}).not_repeated == []
+
+
+@pytest.fixture
+def probed(monkeypatch, report):
+    """Return what the probes show of a report, on a device that has the features of ``report``."""
+    measured = dict(report["resemblance"]["features"])
+
+    def probe(changed):
+        monkeypatch.setattr(naming, "ask_probes", lambda *_, **__: ())
+        monkeypatch.setattr(naming, "measure_features", lambda _: measured)
+        return probe_again(changed, SimpleNamespace(), KNOWN)
+
+    return probe
+
+
+def test_the_device_shows_features_that_were_changed_or_taken_away(report, probed):
+    assert probed(report) == Probed()
+    stated = report["resemblance"]
+    name, value = next((n, x) for n, x in stated["features"].items() if x is not None)
+    stated["features"][name] = value + 0.9 * REMADE
+    assert probed(report) == Probed()
+    stated["features"][name] = value + 1.1 * REMADE
+    (line,) = probed(report).differences
+    assert line.startswith(f"{name} is ")
+    stated.update(features={}, flaws=[], note="no time")
+    (line,) = probed(report).differences
+    assert "name late-laser 1" in line
+    stated.update(note=naming.INTERRUPTED)
+    found = probed(report)
+    assert found.differences == ()
+    assert "name late-laser 1" in found.missing
+
+
+def test_the_device_is_probed_only_where_probes_name_the_flaw(report, probed):
+    crash = {"id": "stop", "outcome": "error", "reason": "stop-1: run: was killed by SIGSEGV"}
+    for other in ({"resemblance": None}, {"verdict": "PASS"}, {"checks": [FAILED, crash]}):
+        assert probed({**report, **other}) is None
+
+
+def test_a_device_without_an_answer_in_time_repeats_nothing(report, monkeypatch):
+    monkeypatch.setattr(naming, "LONGEST_S", 0.0)
+    found = probe_again(report, SimpleNamespace(), KNOWN)
+    assert found == Probed(missing=naming.TOO_LONG)
+
+
+def test_a_device_at_hand_shows_what_a_note_hides(archive, devices, probed):
+    for note, found_in in (("no time", "findings"), (naming.INTERRUPTED, "not_repeated")):
+        changed = archive("clipping")
+        resembling(note)(changed)
+        changed.renew_sums()
+        assert probed({}) is None
+        found = changed.verify(devices["clipping"]())
+        assert any("late-laser" in str(line) for line in getattr(found, found_in)), note
 
 
 def test_with_other_sources_nothing_is_compared(report):

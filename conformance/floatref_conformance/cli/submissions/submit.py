@@ -9,7 +9,7 @@ from floatref.errors import InputError
 from floatref.files import read_bytes
 from floatref.files.atomic import check_target
 from floatref_conformance.cli.edition_option import edition_option
-from floatref_conformance.cli.following import follow
+from floatref_conformance.cli.following import end_with, follow
 from floatref_conformance.cli.judging_options import (
     Asked,
     completing,
@@ -99,7 +99,7 @@ def submit(
         members, signed = {**members, name: signature}, f"signed with {key}"
     write_archive(members, out, overwrite)
     click.echo(f"{finished.verdict}: {len(members)} files in {out}, {signed}")
-    context.exit(finished.verdict.exit_code)
+    end_with(context, finished)
 
 
 def _read_statement(path: Path) -> str:
