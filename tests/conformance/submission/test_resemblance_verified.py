@@ -89,13 +89,9 @@ def test_flaws_of_a_fail_that_are_not_there_are_named(report):
 def probed(monkeypatch, report):
     """Return what the probes show of a report, on a device that has the features of ``report``."""
     measured = dict(report["resemblance"]["features"])
-
-    def probe(changed):
-        monkeypatch.setattr(naming, "ask_probes", lambda *_, **__: ())
-        monkeypatch.setattr(naming, "measure_features", lambda _: measured)
-        return probe_again(changed, SimpleNamespace(), KNOWN)
-
-    return probe
+    monkeypatch.setattr(naming, "ask_probes", lambda *_, **__: ())
+    monkeypatch.setattr(naming, "measure_features", lambda _: measured)
+    return lambda changed: probe_again(changed, SimpleNamespace(), KNOWN)
 
 
 def test_the_device_shows_features_that_were_changed_or_taken_away(report, probed):
@@ -128,12 +124,12 @@ def test_a_device_without_an_answer_in_time_repeats_nothing(report, monkeypatch)
     assert found == Probed(missing=naming.TOO_LONG)
 
 
-def test_a_device_at_hand_shows_what_a_note_hides(archive, devices, probed):
+@pytest.mark.usefixtures("probed")
+def test_a_device_at_hand_shows_what_a_note_hides(archive, devices):
     for note, found_in in (("no time", "findings"), (naming.INTERRUPTED, "not_repeated")):
         changed = archive("clipping")
         resembling(note)(changed)
         changed.renew_sums()
-        assert probed({}) is None
         found = changed.verify(devices["clipping"]())
         assert any("late-laser" in str(line) for line in getattr(found, found_in)), note
 

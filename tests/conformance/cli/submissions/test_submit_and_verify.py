@@ -7,11 +7,13 @@ import pytest
 from click.testing import CliRunner
 from tests.conformance.submission.conftest import load
 
+from floatref.cli.program.interrupts import Interrupt
 from floatref_conformance.cli import judging_options
 from floatref_conformance.cli.main import main
 from floatref_conformance.cli.submissions import submit as submit_command
 from floatref_conformance.cli.submissions import verify as verify_command
 from floatref_conformance.cli.submissions.verify import FORMAT
+from floatref_conformance.resemblance import naming
 from floatref_conformance.submission.stored_zip import read_archive, write_archive
 
 
@@ -111,3 +113,19 @@ def test_an_archive_of_somebody_else_ends_with_2(call, tmp_path):
     ended = call("verify", "a.zip")
     assert (ended.exit_code, ended.stdout) == (2, "")
     assert ended.stderr == "Error: a.zip: no SHA256SUMS; give an archive of `conformance submit`\n"
+
+
+@pytest.mark.slow
+def test_an_archive_whose_probes_were_interrupted_is_whole(call, submit, monkeypatch):
+    def interrupt(*_, **__):
+        raise Interrupt
+
+    monkeypatch.setattr(naming, "ask_probes", interrupt)
+    monkeypatch.setattr(judging_options, "add_resemblance", naming.add_resemblance)
+    ended = submit("clipping")
+    assert ended.exit_code == 130
+    assert "FAIL: " in ended.stdout
+    assert ended.stderr.splitlines()[-1].startswith("Interrupted: the verdict is kept")
+    verified = call("verify", "a.zip")
+    assert verified.exit_code == 0
+    assert f"by the word of the report, {naming.INTERRUPTED}" in verified.stdout
