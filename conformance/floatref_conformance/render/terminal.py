@@ -29,6 +29,7 @@ FAILURES = (*wording.FAILED, Outcome.WAIVED)
 """Outcomes whose reason is shown without `--verbose`, too."""
 PLAIN_WIDTH = 100
 """Columns of the table when the width of the output is unknown."""
+NARROWEST = 20
 
 
 class PipedConsole(Console):
@@ -114,10 +115,11 @@ def make_console(stderr: bool = False) -> PipedConsole:
     """Return a console of standard output, or of standard error.
 
     It has `PLAIN_WIDTH` columns at least where it is no terminal and the variable COLUMNS of the
-    environment does not say how many.
+    environment does not say how many, and where nothing fits into what is said.
     """
     console = PipedConsole(emoji=False, stderr=stderr)
-    if not console.is_terminal and "COLUMNS" not in os.environ:
+    known = console.is_terminal or os.environ.get("COLUMNS", "").isdecimal()
+    if not known or console.width < NARROWEST:
         console.width = max(console.width, PLAIN_WIDTH)
     return console
 

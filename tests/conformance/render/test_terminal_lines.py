@@ -151,7 +151,10 @@ def test_a_waived_failure_is_told_in_the_verdict(check, result):
     assert "INCOMPLETE: 1 of 2 checks that ran passed; 1 failed and was waived" in text
 
 
-@pytest.mark.parametrize(("said", "columns"), [(None, 100), ("80", 80), ("132", 132)])
+@pytest.mark.parametrize(
+    ("said", "columns"),
+    [(None, 100), ("80", 80), ("132", 132), ("0", 100), ("", 100), ("wide", 100)],
+)
 def test_a_pipe_is_as_wide_as_the_environment_says_else_a_hundred_columns(
     monkeypatch, said, columns
 ):

@@ -126,7 +126,7 @@ def unit_of(pair: Pair) -> tuple[Ratio, Ratio]:
 def _pair(titles: Sequence[str], place: int, match: re.Match[str], unstated: str) -> Pair:
     title = titles[place + 1].strip()
     with_unit = UNIT.fullmatch(title)
-    bare, unit = (with_unit["title"], with_unit["unit"]) if with_unit else (title, unstated)
+    bare, unit = (with_unit["title"], with_unit["unit"]) if with_unit else (title, "")
     name = match["name"]
     if not (name and bare.startswith(name)):
         # Viewers may put a file before the channel; the section is behind the last underscore.
@@ -138,5 +138,5 @@ def _pair(titles: Sequence[str], place: int, match: re.Match[str], unstated: str
         match["unit"],
         place + 1,
         title,
-        unit.strip(),
+        unit.strip() or unstated,
     )

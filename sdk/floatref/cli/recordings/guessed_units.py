@@ -2,14 +2,15 @@
 
 A road in inches that is taken for one in feet has twelve times its roughness. So the unit that
 viewers use beside the stated unit of distance is tried first, then others of the same system; the
-first that makes a road of 0.5 to 20 m/km is taken. Only commands that say so guess.
+first that makes a road of 0.5 to 20 m/km of every wheel path is taken, and the sentence names the
+others that do. A level column says nothing. Only commands that say so guess.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from math import isfinite
 from pathlib import Path
-from statistics import median
 from types import MappingProxyType
 
 from floatref.engine.formats import profile_of
@@ -20,7 +21,10 @@ from floatref.values.profile import Profile, ProfileTrack
 GUESSED = "guessed_units"
 """Key of the provenance that holds the sentence on a guess."""
 SMOOTHEST, ROUGHEST = 0.5, 20.0
-"""IRI in m/km of roads: between them lies at most one of inches and feet that is likely."""
+"""IRI in m/km of roads that a unit is guessed by.
+
+From 6 m/km on feet are taken for inches, and from 5 cm for mm; below 0.5, inches for feet.
+"""
 LONGEST_M = 1000.0
 """Length of road by which a unit is guessed."""
 FEET, METRES = ("in", "ft", "mil"), ("m", "mm", "cm")
@@ -41,10 +45,10 @@ def read_guessing(path: Path) -> tuple[Profile, str]:
         profile = profile_of(path)
         return profile, str(profile.provenance.get(GUESSED, ""))
     raw, along = given
-    unit, factor, roughness = _guess(raw, along, path)
+    unit, factor, found_by = _guess(raw, along, path)
     note = (
         f"no unit of heights is stated: taken as {unit}, by distance in {along} and an IRI of "
-        f"{roughness:.2f} m/km; write ({unit}) behind the title if that is right, or another unit"
+        f"{found_by}; write ({unit}) behind the title if that is right, or another unit"
     )
     made = replace(
         raw,
@@ -54,40 +58,48 @@ def read_guessing(path: Path) -> tuple[Profile, str]:
     return made, note
 
 
-def _guess(raw: Profile, along: str, path: Path) -> tuple[str, float, float]:
-    """Return the unit of the heights of ``raw``, m per unit, and the IRI in m/km that it makes."""
+def _guess(raw: Profile, along: str, path: Path) -> tuple[str, float, str]:
+    """Return the unit of the heights of ``raw``, m per unit, and the IRI in m/km, in words."""
     # With numba and scipy, which reading a file that states its units does not need.
     from floatref.measures.locating.profile_units import HEIGHT_UNITS
 
-    units = TRIED.get(along, METRES)
-    found = _roughness(raw)
-    for unit in units:
-        roughness = found * HEIGHT_UNITS[unit]
-        if SMOOTHEST <= roughness <= ROUGHEST:
-            return unit, HEIGHT_UNITS[unit], roughness
-    values = ", ".join(f"{unit} {found * HEIGHT_UNITS[unit]:.3g}" for unit in units)
-    raise InputError(
-        f"{path}: no unit of heights is stated, and in no unit are they a road of {SMOOTHEST:g} to "
-        f"{ROUGHEST:g} m/km ({values}); write the unit behind the title, as (in)"
-    )
+    units, found = TRIED.get(along, METRES), _roughness(raw)
+    fitting = [unit for unit in units if _fits(found.values(), HEIGHT_UNITS[unit])]
+    if not fitting:
+        values = ", ".join(f"{unit} {_listed(found, HEIGHT_UNITS[unit])}" for unit in units)
+        raise InputError(
+            f"{path}: no unit of heights is stated, and in no unit are they a road of "
+            f"{SMOOTHEST:g} to {ROUGHEST:g} m/km ({values or 'all level'}); write the unit behind "
+            "the title, as (in)"
+        )
+    unit, *others = fitting
+    also = "".join(f", in {other} {_listed(found, HEIGHT_UNITS[other])}" for other in others)
+    words = f"{_listed(found, HEIGHT_UNITS[unit])} m/km"
+    return unit, HEIGHT_UNITS[unit], words + (f" (a road too{also})" if also else "")
 
 
-def _roughness(raw: Profile) -> float:
-    """Return the median IRI of the wheel paths, heights taken as m; NaN without one.
+def _fits(found: Collection[float], factor: float) -> bool:
+    """Return whether every wheel path is a road; one of other numbers is none in the same unit."""
+    return bool(found) and all(SMOOTHEST <= one * factor <= ROUGHEST for one in found)
+
+
+def _listed(found: Mapping[str, float], factor: float) -> str:
+    return " and ".join(f"{one * factor:.3g}" for one in found.values()) or "level"
+
+
+def _roughness(raw: Profile) -> dict[str, float]:
+    """Return the IRI of each wheel path that is not level, heights taken as m.
 
     The IRI is linear in heights, which are taken as mm here since no filter takes 1e6 m.
     """
     from floatref.measures import iri
 
     points = slice(0, int(LONGEST_M / raw.interval_m) + 1)
-    found = []
+    found = {}
     for track in raw.tracks:
-        try:
-            found.append(1e3 * iri(1e-3 * track.elevation[points], raw.interval_m))
-        except InputError:
-            continue
-    known = [value for value in found if isfinite(value)]
-    return median(known) if known else float("nan")
+        with suppress(InputError):
+            found[track.name] = 1e3 * iri(1e-3 * track.elevation[points], raw.interval_m)
+    return {name: one for name, one in found.items() if isfinite(one) and one > 0.0}
 
 
 def _in_metres(track: ProfileTrack, factor: float) -> ProfileTrack:

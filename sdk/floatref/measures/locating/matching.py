@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from floatref.errors import InputError
-from floatref.measures.locating.placing import place
+from floatref.measures.locating.placing import SURE, place
 from floatref.values.profile import Profile
 
 
@@ -32,7 +32,12 @@ def match_names(reference: Profile, profile: Profile) -> tuple[Profile, tuple[st
 
 
 def _pairs(reference: Profile, profile: Profile) -> dict[str, str]:
-    """Return the wheel path of ``profile`` for each of ``reference`` that was found."""
-    if profile.length_m >= reference.length_m:
-        return dict(place(reference, profile).tracks)
-    return {mine: its for its, mine in place(profile, reference).tracks.items()}
+    """Return the wheel path of ``profile`` for each of ``reference`` that was found.
+
+    Each by its own correlation: one that is left over need not be the one that is missing.
+    """
+    longer = profile.length_m >= reference.length_m
+    placed = place(reference, profile) if longer else place(profile, reference)
+    sure = placed.path_correlations
+    found = {mine: its for mine, its in placed.tracks.items() if sure.get(mine, 0.0) >= SURE}
+    return found if longer else {its: mine for mine, its in found.items()}

@@ -34,6 +34,7 @@ class Placement:
         distance_scale: how many times as long its encoder takes the road.
         moves: whether anything has to be done to the run.
         alternatives: places at which it would fit as well.
+        path_correlations: by wheel path of the reference, where the run was looked for.
     """
 
     found: bool
@@ -50,6 +51,7 @@ class Placement:
     offset_m: float = 0.0
     distance_scale: float = 1.0
     alternatives: int = 0
+    path_correlations: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def moves(self) -> bool:

@@ -121,7 +121,8 @@ def _refine(reference: Profile, run: Profile, best: Find) -> tuple[Placement, fl
     )
     forward = apply_placement(run, turned)
     line, sign = _line(c, forward), math.copysign(1.0, c.score)
-    known = [_follow(reference, forward, name, line, sign) for name in turned.tracks]
+    names = list(turned.tracks)
+    known = [_follow(reference, forward, name, line, sign) for name in names]
     surest = max(known, key=lambda k: k.correlation)
     amount = float(np.nanmedian([abs(k.gain) for k in known]))
     unit = height_unit(amount) or METRE
@@ -133,6 +134,9 @@ def _refine(reference: Profile, run: Profile, best: Find) -> tuple[Placement, fl
         height_gain=amount * HEIGHT_UNITS[unit],
         offset_m=_offset(surest.line, reference),
         distance_scale=surest.line.scale,
+        path_correlations={
+            n: max(k.correlation, k.score) for n, k in zip(names, known, strict=True)
+        },
     )
     return placement, max(k.score for k in known)
 

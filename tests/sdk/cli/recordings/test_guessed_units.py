@@ -47,6 +47,32 @@ def test_the_unit_is_found(
     assert profile.provenance[GUESSED] == note
 
 
+def two(path: Path, left: np.ndarray, right: np.ndarray) -> Path:
+    places = INTERVAL_M * np.arange(left.size) / 0.3048
+    rows = [
+        f"{at:.12g}\t{a:.12g}\t{at:.12g}\t{b:.12g}"
+        for at, a, b in zip(places, left, right, strict=True)
+    ]
+    titles = "LElev - Distance (ft)\tLElev_Full\tRElev - Distance (ft)\tRElev_Full"
+    path.write_text("\n".join([titles, *rows]) + "\n", encoding="utf-8")
+    return path
+
+
+def test_a_level_wheel_path_says_nothing_about_the_unit(tmp_path: Path) -> None:
+    profile, note = read_guessing(two(tmp_path / "run.txt", 0.9 * ROAD / 0.0254, 0.0 * ROAD))
+    assert "taken as in, by distance in ft and an IRI of 0.9 m/km (a road too, in ft 10.8)" in note
+    np.testing.assert_allclose(profile.tracks[0].elevation, 0.9 * ROAD, atol=1e-9)
+
+
+@given(other=st.floats(30.0, 1e3) | st.floats(1e-4, 1e-3))
+def test_columns_that_are_no_roads_in_one_unit_are_refused(
+    tmp_path_factory: pytest.TempPathFactory, other: float
+) -> None:
+    path = two(tmp_path_factory.mktemp("two") / "run.txt", ROAD / 0.0254, other * ROAD / 0.0254)
+    with pytest.raises(InputError, match="in no unit are they a road"):
+        read_guessing(path)
+
+
 def test_a_unit_that_is_stated_is_not_guessed(tmp_path: Path) -> None:
     profile, note = read_guessing(text(tmp_path / "run.txt", ROAD, "ft", "LElev_Full (ft)"))
     assert note == ""
