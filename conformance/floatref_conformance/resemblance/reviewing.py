@@ -43,7 +43,7 @@ def review(report: Mapping[str, Any], description: Description) -> str:
     if features is None:
         return f"has features that are no numbers by name, up to {LARGEST:g}"
     if not features and stated.get("found_by") == PROBES and not _is_note(stated):
-        return "has neither features nor the reason why there are none"
+        return "has no features, and no note that a run writes for that"
     again = _find_again(report, stated, features, description)
     if stated != resemblance_document(again):
         return f"is not what the catalogue says: {_show(again)}"
