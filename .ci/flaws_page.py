@@ -57,7 +57,7 @@ These were taken for one another:
 |---|---|
 """
 WHY = """
-Some flaws have the same errors on the probes, and cannot be told apart by them: `vouches-never`,
+Some flaws have the same errors on the probes, and cannot be distinguished by them: `vouches-never`,
 `middle-flagged` and `coasting-flagged` flag most of a short run (0.94 to 0.99 in common);
 `reverse-pass-missing`, `cotangent` and `third-order` are filters that run forward only (0.97 to
 0.98); `pitch-sign`, `rates-swapped` and `gravity-left-out` are a wrong attitude under braking (0.95

@@ -41,7 +41,7 @@ NO_TRUTH = (
     "is another run, no truth: accuracy is the agreement of two runs, and an error of distance, "
     "height or IRI may be of either; the estimates treat both alike"
 )
-"""What a worksheet says of a reference that is a recording, or that is said to be a run."""
+"""What a worksheet says of a reference that is a recording, or is stated to be a run."""
 
 Progress = Callable[[str, float], None]
 """Called with what is being done and the part of all that is done, from 0 to 1."""

@@ -31,7 +31,7 @@ class Resemblance:
         least: how much a flaw has to have in common to be named.
         features: the errors on the probes, by which the flaws are compared; None where a probe
             gives no value.
-        note: why there are no features, if there are none.
+        note: why there are no features, where they are missing.
     """
 
     found_by: str

@@ -115,7 +115,7 @@ def make_console(stderr: bool = False) -> PipedConsole:
     """Return a console of standard output, or of standard error.
 
     It has `PLAIN_WIDTH` columns at least where it is no terminal and the variable COLUMNS of the
-    environment does not say how many, and where nothing fits into what is said.
+    environment does not say how many, and where nothing fits into as many.
     """
     console = PipedConsole(emoji=False, stderr=stderr)
     known = console.is_terminal or os.environ.get("COLUMNS", "").isdecimal()

@@ -57,7 +57,7 @@ class ComparedPath:
 
 
 def compare_paths(answer: Answer) -> Iterator[ComparedPath]:
-    """Yield every wheel path of the truth that was delivered, none where the axes do not meet."""
+    """Yield every wheel path of the truth that was delivered, if the axes meet."""
     profile, truth = answer.profile, answer.taken.truth
     if profile is None:
         return

@@ -25,7 +25,7 @@ def measure_vectors(show: Show, names: Iterable[str] = ()) -> Vectors:
     """Return the vectors of the mutants ``names``, all without any, and of the good devices.
 
     ``show`` is called with a line for every device. Mutants of the protocol and of streams make
-    sound profiles, or none: their faults name them.
+    sound profiles, or no profile: their faults name them.
     """
     wanted = set(names)
     flaws = []

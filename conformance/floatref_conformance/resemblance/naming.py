@@ -25,7 +25,7 @@ INTERRUPTED = "the probes were interrupted"
 NOT_COMPARED = "not compared: "
 """How a note begins that says what went wrong here."""
 LONGEST_S = 120.0
-"""Time in s for all probes together: none begins after it, and the last one is given its rest."""
+"""Time in s for all probes together: no probe begins later, and the last is given the rest."""
 TOO_LONG = f"the probes took longer than {LONGEST_S:g} s"
 FAILED = (Outcome.FAIL, Outcome.ERROR)
 

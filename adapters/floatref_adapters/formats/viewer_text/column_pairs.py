@@ -92,7 +92,7 @@ def _track_name(name: str) -> str:
 def list_pairs(titles: Sequence[str], unstated: str = "") -> list[Pair]:
     """Return the pairs of columns in their order; other columns between them are passed over.
 
-    ``unstated`` is the unit of values whose title states none.
+    ``unstated`` is the unit of values whose title has no unit.
 
     Raises InputError for a column of distances that has no column of values behind it.
     """

@@ -29,7 +29,7 @@ JUDGED = tuple(UNITS)[:10]
 """Quantities that a worksheet measures and can judge."""
 
 NOT_PUBLIC, NOT_FOUND, REPORTED = "not public", "not found", "reported"
-"""Words in place of a limit: it is sold, it could not be opened, or none is meant."""
+"""Words in place of a limit: it is sold, it could not be opened, or no limit is meant."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Requirement:
 
     Attributes:
         quantity: a key of `UNITS`, in whose unit ``limit`` is.
-        limit: None where a word stands in its place.
+        limit: None where its place has words.
         word: `NOT_PUBLIC`, `NOT_FOUND` or `REPORTED`; empty with a limit.
         clause: what is asked, in words.
         basis: ``read`` in the source, ``cited`` by it, ``quoted`` commonly, ``ours`` or ``agency``.

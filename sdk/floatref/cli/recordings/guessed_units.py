@@ -79,7 +79,7 @@ def _guess(raw: Profile, along: str, path: Path) -> tuple[str, float, str]:
 
 
 def _fits(found: Collection[float], factor: float) -> bool:
-    """Return whether every wheel path is a road; one of other numbers is none in the same unit."""
+    """Return whether every wheel path is a road in this unit, not one of them alone."""
     return bool(found) and all(SMOOTHEST <= one * factor <= ROUGHEST for one in found)
 
 
