@@ -60,6 +60,8 @@ READ = {
     "conformance replay case": "replay {x} --device builtin:temporal-basic",
     "conformance matrix reports": "matrix {report} {x}",
     "conformance certify --plan": "certify --plan {x}",
+    "conformance certify --practice": "certify {profile} --reference {profile} --practice {x}",
+    "conformance practices name": "practices {x}",
     "conformance certify --settings": (
         "certify {run} --reference {profile} --section 0:100 --settings {x}"
     ),
@@ -68,6 +70,8 @@ READ = {
     "conformance certify --reference": "certify {profile} --reference {x} --section 0:100",
 }
 TEXTS = {
+    "conformance certify --practice",
+    "conformance practices name",
     "conformance simulate run",
     "conformance certify runs",
     "conformance certify --reference",

@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from typing import Any
 
-from floatref_conformance.matrix.result_matrix import Matrix, count_judged
+from floatref_conformance.matrix.result_matrix import Matrix, count_judged, follow_outcomes
 from floatref_conformance.matrix.stored_reports import StoredReport
 from floatref_conformance.render.json_values import finite
 from floatref_conformance.schemas import enforce
@@ -49,6 +49,7 @@ def _report(report: StoredReport, label: str) -> dict[str, Any]:
         "group": label,
         "device": {key: device[key] for key in ("spec", "name", "version")},
         "verdict": report.document["verdict"],
+        "outcomes_make": follow_outcomes(report),
         "class_reached": report.document["class_reached"],
         "passed": passed,
         "judged": judged,

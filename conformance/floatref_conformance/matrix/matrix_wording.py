@@ -1,7 +1,13 @@
 """Cells of the matrix in words, the same in the terminal and on the page."""
 
 from floatref_conformance.checks.verdict import Outcome
-from floatref_conformance.matrix.result_matrix import Cell, Group, Matrix, count_judged
+from floatref_conformance.matrix.result_matrix import (
+    Cell,
+    Group,
+    Matrix,
+    count_judged,
+    follow_outcomes,
+)
 from floatref_conformance.matrix.stored_reports import StoredReport
 from floatref_conformance.render import wording
 
@@ -49,9 +55,11 @@ def describe_group(group: Group, first: Group) -> str:
 
 
 def describe_report(report: StoredReport) -> str:
-    """Return how many checks of those that ran passed."""
+    """Return how many checks of those that ran passed, and whether its verdict is another."""
     passed, judged = count_judged(report)
-    return f"{passed} of {judged} checks that ran passed"
+    stated, follows = report.document["verdict"], follow_outcomes(report)
+    other = "" if stated == follows else f"; it states {stated}, its outcomes make it {follows}"
+    return f"{passed} of {judged} checks that ran passed{other}"
 
 
 def reason_lines(matrix: Matrix) -> list[str]:

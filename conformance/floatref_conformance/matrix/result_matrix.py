@@ -6,7 +6,7 @@ from itertools import count, product
 from string import ascii_uppercase
 from typing import Any
 
-from floatref_conformance.checks.verdict import Outcome
+from floatref_conformance.checks.verdict import Outcome, verdict_on
 from floatref_conformance.matrix.stored_reports import StoredReport, Terms
 
 MEASURED = (Outcome.PASS, Outcome.FAIL, Outcome.WAIVED)
@@ -74,6 +74,12 @@ def make_matrix(reports: Sequence[StoredReport]) -> Matrix:
     return Matrix(groups, ordered, labels, rows)
 
 
+def follow_outcomes(report: StoredReport) -> str:
+    """Return the verdict that the outcomes of ``report`` make, whatever verdict it states."""
+    checks = (*report.checks.values(), *report.document["replayed"])
+    return verdict_on([Outcome(check["outcome"]) for check in checks]).value
+
+
 def count_judged(report: StoredReport) -> tuple[int, int]:
     """Return how many checks of ``report`` passed, and how many judged the device."""
     outcomes = [Outcome(check["outcome"]) for check in report.checks.values()]
@@ -122,8 +128,8 @@ def _mark(cells: Sequence[Cell], labels: Sequence[str]) -> tuple[Cell, ...]:
             shares.setdefault(label, []).append(cell.share)
     least = {label: min(found) for label, found in shares.items() if len(found) > 1}
     return tuple(
-        replace(cell, smallest=cell.outcome in MEASURED and cell.share == least.get(label, -1.0))
-        if cell.share is not None
+        replace(cell, smallest=label in least and cell.share == least[label])
+        if cell.share is not None and cell.outcome in MEASURED
         else cell
         for cell, label in zip(cells, labels, strict=True)
     )

@@ -22,6 +22,7 @@ from floatref_conformance.devices.recorded import PROFILE, RecordedDevice, cases
 
 SDK, REFERENCE, SUITE = "floatref", "floatref_reference", "floatref_conformance"
 PACKAGES = ("numpy", "scipy", "numba", "hypothesis")
+FURTHER = "further"
 COMPILED = frozenset({".pyc", ".nbi", ".nbc"})
 
 
@@ -30,22 +31,31 @@ def hash_device(device: Device, spec: str, files: Iterable[Path] = ()) -> dict[s
 
     Of a program these are the program and each file among its arguments; of a container its image;
     of a Python object all modules of its package; of `files:` the delivered profiles; of the others
-    our own packages.
+    our own packages. A further file with the name of another has `FURTHER` before its own.
     Raises InputError for a file that cannot be read.
     """
-    named = {path.name: sha256_of(path) for path in files}
+    found = _hash_own(device, spec)
+    for path in files:
+        digest, name = sha256_of(path), path.name
+        while found.get(name, digest) != digest:
+            name = f"{FURTHER} {name}"
+        found[name] = digest
+    return found
+
+
+def _hash_own(device: Device, spec: str) -> dict[str, str]:
     if isinstance(device, ExecDevice) and device.argv[: len(HOST)] == HOST:
-        return _hash_package(device.argv[len(HOST)]) | named
+        return _hash_package(device.argv[len(HOST)])
     if isinstance(device, ExecDevice):
         # Not `Path.is_file`: an argument may be too long to be a name.
         here = [word for word in device.argv if os.path.isfile(device.folder / word)]
-        return {_name(word, here): sha256_of(device.folder / word) for word in here} | named
+        return {_name(word, here): sha256_of(device.folder / word) for word in here}
     if isinstance(device, ContainerDevice):
-        return {device.image: device.digest} | named
+        return {device.image: device.digest}
     if isinstance(device, RecordedDevice):
-        return {PROFILE: _join(_hash_case(case) for case in cases(device.folder))} | named
+        return {PROFILE: _join(_hash_case(case) for case in cases(device.folder))}
     packages = (SDK,) if spec.startswith("builtin:") else (SDK, SUITE)
-    return {name: hash_package(name) for name in packages} | named
+    return {name: hash_package(name) for name in packages}
 
 
 def _name(word: str, words: Sequence[str]) -> str:

@@ -76,8 +76,11 @@ def _number(value: float, where: str) -> float | None:
     return None if math.isnan(value) else float(value)
 
 
-def parse_document(text: str) -> Any:
-    """Return the content of a JSON ``text``; InputError if it is empty, truncated or no JSON."""
+def parse_document(text: str, keys_once: bool = False) -> Any:
+    """Return the content of a JSON ``text``; InputError if it is empty, truncated or no JSON.
+
+    The last of repeated keys counts; with ``keys_once`` they are an InputError.
+    """
     if not text.strip():
         raise InputError("empty; copy the complete file")
     try:
@@ -86,6 +89,7 @@ def parse_document(text: str) -> Any:
             parse_constant=_refuse_constant,
             parse_float=_parse_float,
             parse_int=_parse_integer,
+            object_pairs_hook=_refuse_repeated if keys_once else None,
         )
     except json.JSONDecodeError as error:
         cut = error.pos >= len(text.rstrip()) or error.msg.startswith("Unterminated")
@@ -94,6 +98,15 @@ def parse_document(text: str) -> Any:
         raise InputError(f"not JSON at {where} ({error.msg}); {advice}") from error
     except RecursionError as error:
         raise InputError("lists or objects nested too deeply; flatten them") from error
+
+
+def _refuse_repeated(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise InputError(f"has the key {show(key)} twice in one object; give it once")
+        found[key] = value
+    return found
 
 
 def _refuse_constant(literal: str) -> NoReturn:

@@ -245,6 +245,7 @@ def test_practice_and_a_reference_that_is_a_run_are_said(
 ) -> None:
     plain = document(call("runs", "--json"))
     assert plain["practice"]["name"] == "aashto-r56-14"
+    assert set(plain["practice"]["changed"]) == {"runs", "distance_percent", "height_percent"}
     result = call("runs", "--practice", "tex-1001-s", RUN, "--report", tmp_path / "r", "--json")
     assert result.exit_code == 4, result.output
     other = document(result)

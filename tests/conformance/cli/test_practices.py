@@ -1,14 +1,19 @@
 """`conformance practices`, and the practice of a certification in its worksheet."""
 
 import json
+from dataclasses import replace
 from hashlib import sha256
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
 from floatref_conformance.certify.practice.practice_document import list_names, read_own
+from floatref_conformance.certify.practice.requirements import Source
 from floatref_conformance.cli.main import main
+
+shown = import_module("floatref_conformance.cli.certify.practices")
 
 
 def call(*words: str) -> Result:
@@ -55,6 +60,21 @@ def test_a_class_that_a_practice_does_not_have_is_refused(tmp_path: Path) -> Non
     result = call("certify", *words)
     assert result.exit_code == 2
     assert "practice tex-1001-s has no limits for it" in result.stderr
+
+
+def test_whatever_a_text_of_a_practice_holds_moves_no_cursor(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hostile = "a\x1b]0;owned\x07\u202e\nPASS"
+    own = read_own("tex-1001-s")
+    first = replace(own.requirements[0], clause=hostile, source=Source(hostile), missing=hostile)
+    made = replace(own, title=hostile, version=hostile, notes=(hostile,), requirements=(first,))
+    monkeypatch.setattr(shown, "find_practice", lambda name: made)
+    for words in (("practices", "x"), ("practices",)):
+        text = call(*words).stdout
+        assert "\\u202e" in "".join(text.split())
+        assert text.replace("\n", "").isprintable()
+        assert "PASS" not in [line.strip() for line in text.splitlines()]
 
 
 def test_the_digest_is_that_of_an_agencys_file(tmp_path: Path) -> None:

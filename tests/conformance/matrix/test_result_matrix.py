@@ -8,6 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.conformance.matrix.conftest import make_check, make_document
 
+from floatref_conformance.checks.verdict import Outcome, Verdict, verdict_on
+from floatref_conformance.matrix.matrix_wording import describe_report
 from floatref_conformance.matrix.result_matrix import make_matrix
 from floatref_conformance.matrix.stored_reports import StoredReport
 
@@ -54,6 +56,22 @@ def test_a_report_of_another_group_changes_no_cell(shares, others, terms):
     assert beside.groups[1].differs == (
         ("seed",) if terms["edition"] == "2026.2" else ("edition", "seed")
     )
+
+
+def test_a_share_below_zero_of_a_report_alone_is_not_marked():
+    for shares in ((-1.0,), (-1.0, None), (-1.0, -2.0)):
+        made = make_matrix([report({"stop": each}, str(k)) for k, each in enumerate(shares)])
+        marked = [cell.smallest for cell in made.rows["stop"]]
+        assert marked == [each == -2.0 for each in shares]
+
+
+@given(st.sampled_from(list(Verdict)), st.lists(st.sampled_from(list(Outcome)), max_size=4))
+def test_a_verdict_that_is_not_that_of_the_outcomes_is_named(stated, outcomes):
+    checks = [make_check(str(k), 0.5, outcome=each.value) for k, each in enumerate(outcomes)]
+    words = describe_report(report({}, checks=checks, verdict=stated.value))
+    said = f"it states {stated.value}, its outcomes make it"
+    assert (said in words) == (stated is not verdict_on(outcomes))
+    assert said not in words or words.endswith(verdict_on(outcomes).value)
 
 
 def test_a_cell_without_a_share_has_its_reason():

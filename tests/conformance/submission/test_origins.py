@@ -7,6 +7,8 @@ import pytest
 from floatref.errors import InputError
 from floatref_conformance.devices import executable, python_device, recorded
 from floatref_conformance.devices.builtin import make as make_builtin
+from floatref_conformance.devices.containers.container_device import ContainerDevice
+from floatref_conformance.devices.containers.engine import Engine
 from floatref_conformance.submission.origins import (
     describe_environment,
     describe_suite,
@@ -52,6 +54,21 @@ def test_delivered_files_are_theirs(tmp_path):
     before = hash_of(f"files:{tmp_path}")
     (tmp_path / "case" / "profile.json").write_text("{}")
     assert hash_of(f"files:{tmp_path}") != before
+
+
+def test_a_further_file_replaces_neither_the_device_nor_another(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for folder in (".", "a", "b"):
+        (tmp_path / folder).mkdir(exist_ok=True)
+        (tmp_path / folder / "device.py").write_text(folder)
+    spec = f"exec:{sys.executable} device.py"
+    alone, further = hash_of(spec), [tmp_path / "a/device.py", tmp_path / "b/device.py"]
+    found = hash_of(spec, *further, tmp_path / "device.py")
+    assert found.items() > alone.items()
+    assert set(found) - set(alone) == {"further device.py", "further further device.py"}
+    assert len(set(found.values())) == len(found)
+    image = ContainerDevice("device.py", "5e" * 32, Engine("podman"))
+    assert hash_device(image, "container:device.py", further[:1])["device.py"] == "5e" * 32
 
 
 @pytest.mark.slow

@@ -17,7 +17,7 @@ from floatref_conformance.certify.judging.reasons import (
     of_track,
     report_value,
 )
-from floatref_conformance.certify.practice.requirements import JUDGED, UNITS, Requirement
+from floatref_conformance.certify.practice.requirements import JUDGED, UNITS
 
 SPREAD = "iri_spread_m_per_km"
 TITLES = {
@@ -51,24 +51,17 @@ def report_open(limits: CertificationLimits) -> tuple[Criterion, ...]:
             nan,
             UNITS[one.quantity],
             "",
-            join_reasons("not measured by a worksheet", limit_in_words(one), one.missing),
+            join_reasons("not measured by a worksheet", one.limit_in_words(), one.missing),
         )
         for one in limits.practice.requirements
         if one.quantity in TITLES
     )
 
 
-def limit_in_words(one: Requirement) -> str:
-    """Return the limit of a requirement with its unit, or the word in its place."""
-    if one.limit is None:
-        return f"limit {one.word}"
-    return f"limit {one.limit:.6g} {UNITS[one.quantity]}".strip()
-
-
 def list_open(limits: CertificationLimits) -> tuple[str, ...]:
     """Return one line for each limit that is asked for, measured, and cannot be judged."""
     return tuple(
-        f"{one.quantity}: {join_reasons(limit_in_words(one), one.missing)}"
+        f"{one.quantity}: {join_reasons(one.limit_in_words(), one.missing)}"
         for one in limits.practice.open_requirements()
         if one.quantity in (*JUDGED, SPREAD)
     )

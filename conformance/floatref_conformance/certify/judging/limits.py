@@ -1,6 +1,8 @@
 """What a profiler has to reach: the limits of a practice, by class."""
 
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 from floatref_conformance.certify.practice.practice_document import DEFAULT, read_own
 from floatref_conformance.certify.practice.requirements import Practice
@@ -61,6 +63,20 @@ def limits_of(device_class: DeviceClass, practice: Practice | None = None) -> Ce
     found = {name: chosen.limit_of(name) for name in LIMITED}
     runs = found.pop("runs")
     return CertificationLimits(None if runs is None else int(runs), **found, practice=chosen)
+
+
+def change_limits(
+    limits: CertificationLimits, given: Mapping[str, float | None], setters: Mapping[str, str]
+) -> CertificationLimits:
+    """Return ``limits`` with those ``given`` by quantity, and their practice changed likewise.
+
+    ``setters`` has the name of what set each, for its clause.
+    """
+    practice = limits.practice
+    for quantity, limit in given.items():
+        practice = practice.change(quantity, limit, setters[quantity])
+    changes: dict[str, Any] = dict(given)
+    return replace(limits, **changes, practice=practice)
 
 
 def falls_below(value: float, limit: float | None) -> bool:

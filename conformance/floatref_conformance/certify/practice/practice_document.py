@@ -11,6 +11,7 @@ from floatref.files.document import parse_document
 from floatref.files.schema import enforce_schema
 from floatref.files.sources import name_errors, read_bytes
 from floatref.values.display.similar_names import suggest
+from floatref_conformance.certify.practice.practice_texts import check_texts
 from floatref_conformance.certify.practice.requirements import (
     UNITS,
     Practice,
@@ -74,11 +75,12 @@ def _folder() -> Any:
 def _practice(data: bytes, source: Path) -> Practice:
     with name_errors(source):
         try:
-            document = parse_document(data.decode("utf-8-sig"))
+            document = parse_document(data.decode("utf-8-sig"), keys_once=True)
         except UnicodeDecodeError as error:
             raise InputError(f"byte {error.start} is not UTF-8 text; give a JSON file") from error
     enforce_schema(document, read_schema(SCHEMA), source)
     with name_errors(source):
+        check_texts(document)
         if document["name"] in list_names():
             raise InputError(
                 f"name is {document['name']!r}, which is a practice of ours; give it another name"
@@ -125,9 +127,13 @@ def _requirement(index: int, entry: Mapping[str, Any]) -> Requirement:
 
 
 def _check_limit(where: str, quantity: str, limit: float) -> None:
-    """Raise InputError for a correlation above 1 and a number of runs that is not whole."""
-    if quantity in CORRELATIONS and limit > 1.0:
-        raise InputError(f"{where}: limit is {limit:g}; a correlation is from 0 to 1")
+    """Raise InputError for a limit that every run keeps, or none, and for parts of a run."""
+    if quantity in CORRELATIONS and not 0.0 < limit <= 1.0:
+        raise InputError(
+            f"{where}: limit is {limit:g}; a correlation is from 0 to 1, and all reach 0"
+        )
+    if quantity == "interval_m" and limit <= 0.0:
+        raise InputError(f"{where}: limit is {limit:g}; give an interval above 0")
     if quantity == "runs" and (limit < 1.0 or limit != int(limit)):
         raise InputError(f"{where}: limit is {limit:g}; give a whole number of runs, 1 or more")
 

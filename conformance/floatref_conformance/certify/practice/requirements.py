@@ -53,7 +53,8 @@ class Requirement:
         limit: None where its place has words.
         word: `NOT_PUBLIC`, `NOT_FOUND` or `REPORTED`; empty with a limit.
         clause: what is asked, in words.
-        basis: ``read`` in the source, ``cited`` by it, ``quoted`` commonly, ``ours`` or ``agency``.
+        basis: ``read`` in the source, ``cited`` by it, ``quoted`` commonly, ``ours`` or
+            ``agency``; ``option`` if it was changed.
         source: the document.
         missing: what could not be had.
         device_class: the class that it is for; empty: every class.
@@ -70,6 +71,12 @@ class Requirement:
     device_class: str = ""
     verdict: bool = True
 
+    def limit_in_words(self) -> str:
+        """Return the limit with its unit, or the word in its place."""
+        if self.limit is None:
+            return f"limit {self.word}"
+        return f"limit {self.limit:.6g} {UNITS[self.quantity]}".strip()
+
     @property
     def is_open(self) -> bool:
         """Whether the practice asks for this, and a worksheet cannot judge it."""
@@ -79,7 +86,7 @@ class Requirement:
 
 @dataclass(frozen=True)
 class Practice:
-    """A practice as its file has it; ``sha256`` is the digest of that file."""
+    """A practice as the file of digest ``sha256`` has it, but for limits that are ``changed``."""
 
     name: str
     title: str
@@ -88,12 +95,27 @@ class Practice:
     sha256: str
     status: str = ""
     notes: tuple[str, ...] = ()
+    changed: tuple[str, ...] = ()
 
     def of_class(self, device_class: str) -> "Practice":
         """Return the practice with those limits alone that hold for ``device_class``."""
         wanted = ("", device_class)
         kept = tuple(one for one in self.requirements if one.device_class in wanted)
         return replace(self, requirements=kept)
+
+    def change(self, quantity: str, limit: float | None, setter: str) -> "Practice":
+        """Return the practice with ``limit`` for ``quantity``; None: reported, not judged.
+
+        Its clause names ``setter`` and what the practice has. A limit that it has is no change.
+        """
+        if limit == self.limit_of(quantity):
+            return self
+        found = self.find(quantity)
+        clause = f"set by {setter}; the practice has: {_in_words(found)}"
+        word = REPORTED if limit is None else ""
+        made = Requirement(quantity, limit, word, clause, "option", Source(setter))
+        kept = tuple(one for one in self.requirements if one.quantity != quantity)
+        return replace(self, requirements=(*kept, made), changed=(*self.changed, quantity))
 
     def find(self, quantity: str) -> Requirement | None:
         """Return the first requirement for ``quantity``; None if the practice has no such."""
@@ -112,3 +134,10 @@ class Practice:
     def open_requirements(self) -> tuple[Requirement, ...]:
         """Return what the practice asks for and a worksheet cannot judge."""
         return tuple(one for one in self.requirements if one.is_open)
+
+
+def _in_words(found: Requirement | None) -> str:
+    """Return what a practice has for a quantity, in words."""
+    if found is None or found.word == REPORTED:
+        return "no limit"
+    return found.limit_in_words() if found.verdict else f"{found.limit_in_words()}, not judged"

@@ -195,13 +195,14 @@ def limits_in_words(limits: CertificationLimits) -> tuple[tuple[str, str], ...]:
 
 
 def practice_in_words(limits: CertificationLimits) -> tuple[tuple[str, str], ...]:
-    """Return which practice the limits are of, its digest, and what of it is not judged."""
+    """Return which practice the limits are of, its digest, and what is changed or not judged."""
     practice = limits.practice
     named = f"{practice.name}: {practice.title}; {practice.version}"
     not_judged = (("Not judged", line) for line in list_open(limits))
     status = (("Status of the practice", practice.status),) if practice.status else ()
     digest = ("SHA-256 of the practice", practice.sha256)
-    return (("Practice", named), *status, digest, *not_judged)
+    changed = (("Changed", f"{one}: {limits.clause(one)}") for one in practice.changed)
+    return (("Practice", named), *status, digest, *changed, *not_judged)
 
 
 def _at_least(limit: float | None) -> str:

@@ -62,6 +62,7 @@ def _practice(practice: Practice) -> Mapping[str, Any]:
         "title": practice.title,
         "version": practice.version,
         "sha256": practice.sha256,
+        "changed": list(practice.changed),
         "not_judged": [one.quantity for one in practice.open_requirements()],
     }
 

@@ -13,6 +13,7 @@ from floatref.errors import InputError
 from floatref_conformance.certify.judging.limits import (
     LIMITED,
     CertificationLimits,
+    change_limits,
     limits_of,
 )
 from floatref_conformance.certify.plan.plan_document import (
@@ -37,6 +38,18 @@ NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NAMED_STRETCH = re.compile(rf"({NUMBER}):({NUMBER})(?::(.+))?", re.DOTALL)
 PART = re.compile(rf"(.+)@({NUMBER}):({NUMBER})", re.DOTALL)
 NO_LIMIT = "none"
+OPTIONS = {
+    "runs": "--runs",
+    "repeatability": "--min-repeatability",
+    "accuracy": "--min-accuracy",
+    "distance_percent": "--max-distance-error",
+    "height_percent": "--max-height-error",
+    "iri_bias_percent": "--max-iri-bias",
+    "long_wave_percent": "--max-long-wave-error",
+    "quiescent_m_per_km": "--max-quiescent",
+    "bounce_m_per_km": "--max-bounce",
+}
+"""By quantity, the option that sets its limit."""
 
 
 class Limit(NumberType):
@@ -70,6 +83,7 @@ def limits_with(
 ) -> CertificationLimits:
     """Return the limits of ``device_class``, replaced by those ``given``; `NO_LIMIT` is None.
 
+    The practice of the result names those that differ from its own as changed.
     Raises InputError for what is no ``practice``, and for a class that it does not have.
     """
     chosen = find_practice(practice)
@@ -78,12 +92,12 @@ def limits_with(
         raise InputError(
             f"--class {device_class}: practice {chosen.name} has no limits for it; leave it out"
         )
-    changes: dict[str, Any] = {
+    changes: dict[str, float | None] = {
         name: None if value == NO_LIMIT else value
         for name, value in given.items()
         if name in LIMITED and value is not None
     }
-    return replace(limits_of(device_class, chosen), **changes)
+    return change_limits(limits_of(device_class, chosen), changes, OPTIONS)
 
 
 def plan_of(

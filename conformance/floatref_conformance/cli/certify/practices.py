@@ -5,8 +5,10 @@ from typing import Any
 
 import click
 
+from floatref.errors import one_line
 from floatref_conformance.certify.practice.practice_document import find_practice, list_names
 from floatref_conformance.certify.practice.requirements import UNITS, Practice, Requirement
+from floatref_conformance.render.text import printable
 
 
 @click.command()
@@ -68,7 +70,7 @@ def _print_list(found: list[Practice]) -> None:
         table.add_column(head, overflow="fold")
     for one in found:
         counts = str(len(one.requirements)), str(len(one.open_requirements()))
-        table.add_row(one.name, one.version, *counts)
+        table.add_row(one.name, _shown(one.version), *counts)
     _show(table)
     click.echo("conformance practices NAME shows the limits, the clauses and the sources of one.")
 
@@ -78,7 +80,7 @@ def _print_practice(practice: Practice) -> None:
 
     for line in (practice.title, practice.version, practice.status, f"SHA-256 {practice.sha256}"):
         if line:
-            click.echo(line)
+            click.echo(_shown(line))
     sources = tuple(dict.fromkeys(_source(one) for one in practice.requirements))
     table = _empty(Table)
     for head in ("quantity", "class", "limit", "basis", "clause", "source"):
@@ -87,18 +89,23 @@ def _print_practice(practice: Practice) -> None:
         number = str(1 + sources.index(_source(one)))
         basis = one.basis if one.limit is not None else ""
         table.add_row(
-            one.quantity, one.device_class or "all", _limit(one), basis, one.clause, number
+            one.quantity, one.device_class or "all", _limit(one), basis, _shown(one.clause), number
         )
     _show(table)
     for index, source in enumerate(sources, 1):
-        click.echo(f"Source {index}: {source}")
+        click.echo(f"Source {index}: {_shown(source)}")
     for note in practice.notes:
-        click.echo(note)
+        click.echo(_shown(note))
 
 
 def _source(one: Requirement) -> str:
     """Return the source of a limit, and what of it could not be had."""
     return f"{one.source}; not had: {one.missing}" if one.missing else str(one.source)
+
+
+def _shown(text: str) -> str:
+    """Return ``text`` on one line, without anything that moves the cursor."""
+    return one_line(printable(text))
 
 
 def _limit(one: Requirement) -> str:

@@ -5,7 +5,9 @@ from pathlib import Path
 
 import click
 
+from floatref.errors import InputError
 from floatref.files.atomic import check_target, replace_file
+from floatref.files.sources import document_path, real_path
 from floatref_conformance.render.terminal import make_console
 from floatref_conformance.render.text import needs_jinja
 
@@ -32,6 +34,7 @@ def matrix(reports: tuple[Path, ...], out: Path | None, overwrite: bool, as_json
     """
     if out is not None:
         needs_jinja("the page of the matrix")
+        _check_apart(out, reports)
         check_target(out, overwrite)
     from floatref_conformance.matrix.matrix_document import matrix_document
     from floatref_conformance.matrix.matrix_page import matrix_html
@@ -47,3 +50,12 @@ def matrix(reports: tuple[Path, ...], out: Path | None, overwrite: bool, as_json
         click.echo(json.dumps(matrix_document(made), indent=2, allow_nan=False))
     else:
         print_matrix(made, make_console())
+
+
+def _check_apart(out: Path, reports: tuple[Path, ...]) -> None:
+    """Raise InputError for a page that would replace a report that it is made of."""
+    from floatref_conformance.render.report import NAME
+
+    for report in reports:
+        if real_path(out) == real_path(document_path(report, NAME)):
+            raise InputError(f"--out {out}: is one of the reports; give another name")

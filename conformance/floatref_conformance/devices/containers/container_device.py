@@ -88,8 +88,7 @@ def make(image: str) -> ContainerDevice:
     try:
         check_image(image)
         check_folder()
-        engine = find_engine()
-        digest = engine.find_image(image)
+        engine, digest = find_engine(image)
         engine.remove_abandoned()
     except InputError as error:
         raise InputError(f"device container:{readable(image, 80)}: {error}") from error

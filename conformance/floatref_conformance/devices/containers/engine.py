@@ -31,6 +31,8 @@ VARIABLES = (
 IMAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9._/:@+-]{0,254}")
 """What the name of an image may be; a command has to judge the rest."""
 IDENTITY = re.compile(r"(sha256:)?(?P<digest>[0-9a-f]{64})")
+MOST_PROCESSES = 512
+"""Processes and threads of a container: what splits itself without end stops there."""
 ANSWER_S = 60.0
 """Time in s for a command that starts nothing."""
 RECORDINGS, PROFILES = "/floatref/recordings", "/floatref/profiles"
@@ -80,6 +82,7 @@ class Engine:
             *(self.program, "run", "--interactive", "--rm", "--name", name),
             *("--pull", "never", "--network", "none", "--log-driver", "none"),
             *("--cap-drop", "ALL", "--security-opt", "no-new-privileges"),
+            *("--pids-limit", str(MOST_PROCESSES)),
             *("--read-only", "--tmpfs", "/tmp"),
             *("--volume", f"{folder / 'recordings'}:{RECORDINGS}:ro,Z"),
             *("--volume", f"{folder / 'profiles'}:{PROFILES}:Z"),
@@ -115,14 +118,23 @@ class Engine:
             raise InputError(f"{self.name} cannot be started ({error.strerror})") from error
 
 
-def find_engine() -> Engine:
-    """Return the command that is installed; InputError, which says what to install, without one."""
-    for name in PROGRAMS:
-        program = shutil.which(name)
-        if program is not None:
-            return Engine(os.path.abspath(program))
+def find_engine(image: str) -> tuple[Engine, str]:
+    """Return the first command that has ``image``, and its SHA-256.
+
+    Raises InputError without a command, which says what to install, and if no command has it: an
+    image that one of them built is not known to the other.
+    """
+    found = [shutil.which(name) for name in PROGRAMS]
+    engines = [Engine(os.path.abspath(program)) for program in found if program is not None]
+    refused = []
+    for engine in engines:
+        try:
+            return engine, engine.find_image(image)
+        except InputError as error:
+            refused.append(str(error))
     raise InputError(
-        "neither podman nor docker is found; install one of them, podman needs no root"
+        "; ".join(refused)
+        or "neither podman nor docker is found; install one of them, podman needs no root"
     )
 
 

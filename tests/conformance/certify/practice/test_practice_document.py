@@ -78,7 +78,7 @@ def test_schema_and_code_know_the_same_quantities() -> None:
     assert known == list(UNITS)
 
 
-@given(limit=st.floats(0.0, 1e4), unit=st.sampled_from(sorted(METRES)))
+@given(limit=st.floats(1e-6, 1e4), unit=st.sampled_from(sorted(METRES)))
 def test_a_limit_is_the_same_length_in_every_unit(
     tmp_path_factory: pytest.TempPathFactory, limit: float, unit: str
 ) -> None:
@@ -103,6 +103,10 @@ def test_a_limit_is_the_same_length_in_every_unit(
         ({"limits": [{**LIMIT, "source": {}}]}, "limits[0].source has no document"),
         ({"limits": [LIMIT, LIMIT]}, "distance_percent has two limits in class nominal"),
         ({"limits": [{**LIMIT, "quantity": "accuracy", "limit": 92, "unit": ""}]}, "from 0 to 1"),
+        ({"limits": [{**LIMIT, "quantity": "accuracy", "limit": 0, "unit": ""}]}, "reach 0"),
+        ({"limits": [{**LIMIT, "quantity": "interval_m", "limit": 0, "unit": "m"}]}, "above 0"),
+        ({"name": "county\n"}, "name is"),
+        ({"limits": [{**LIMIT, "limit": "reported\n"}]}, "limits[0].limit"),
         ({"limits": [{**LIMIT, "quantity": "runs", "limit": 2.5, "unit": ""}]}, "whole number"),
     ],
 )
@@ -115,6 +119,34 @@ def test_what_is_no_practice_is_one_line_that_names_the_field(
     assert said in line
     assert "mine.json" in line
     assert "\n" not in line
+
+
+HIDDEN = ("\ud800", "\x1b]0;x\x07", "\u202e", "\n", "\x85", "\u2028", "\x00")
+PLACES = ("title", "version", "status", "notes", "clause", "missing", "document", "section", "url")
+
+
+@given(st.text(st.characters(exclude_categories=("Cc", "Cs", "Cn", "Co"))), st.data())
+def test_a_text_that_one_line_cannot_show_is_refused_wherever_it_is(
+    tmp_path_factory: pytest.TempPathFactory, before: str, data: st.DataObject
+) -> None:
+    place, hidden = data.draw(st.sampled_from(PLACES)), data.draw(st.sampled_from(HIDDEN))
+    text = f"https://{before[:20]}{hidden}x"
+    changes: dict[str, Any] = {place: [text] if place == "notes" else text}
+    if place in ("document", "section", "url"):
+        changes = {"limits": [{**LIMIT, "source": {"document": "a", place: text}}]}
+    elif place in ("clause", "missing"):
+        changes = {"limits": [{**LIMIT, place: text}]}
+    with pytest.raises(InputError, match=place) as caught:
+        find_practice(written(tmp_path_factory.mktemp("text"), **changes))
+    assert str(caught.value).isprintable()
+
+
+def test_a_limit_that_is_given_twice_is_refused(tmp_path: Path) -> None:
+    path = Path(written(tmp_path))
+    text = path.read_text("utf-8")
+    path.write_text(text.replace('"limit": 0.2', '"limit": 0.2, "limit": 5'), "utf-8")
+    with pytest.raises(InputError, match=r'mine\.json: has the key "limit" twice'):
+        find_practice(str(path))
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[1]", b"\xff\xfe"])

@@ -92,3 +92,25 @@ def test_a_page_is_replaced_on_request(call, three, tmp_path):
     assert page.read_text() == "mine"
     assert call(*three, "-o", page, "--overwrite").exit_code == 0
     assert page.read_text().startswith("<!DOCTYPE html>")
+
+
+@pytest.mark.posix
+@pytest.mark.parametrize("name", ["report.json", "link.html", "../one/report.json"])
+def test_a_page_never_replaces_a_report_that_it_shows(call, three, name):
+    before = (three[0] / "report.json").read_text()
+    if name.startswith("link"):
+        (three[0] / name).symlink_to("report.json")
+    ended = call(*three, "-o", three[0] / name, "--overwrite")
+    assert (ended.exit_code, ended.stdout, ended.stderr.count("\n")) == (2, "", 1)
+    assert "is one of the reports" in ended.stderr
+    assert (three[0] / "report.json").read_text() == before
+
+
+def test_a_pass_above_a_failed_check_is_named_in_each_output(call, stored, tmp_path):
+    folder = stored("claim", {"stop": 1.2}, verdict="PASS")
+    ended = call(folder, "-o", tmp_path / "m.html")
+    said = "it states PASS, its outcomes make it FAIL"
+    assert said in " ".join(ended.stdout.split())
+    assert said in assert_sound((tmp_path / "m.html").read_text(encoding="utf-8")).text
+    (found,) = json.loads(call(folder, "--json").stdout)["reports"]
+    assert (found["verdict"], found["outcomes_make"]) == ("PASS", "FAIL")

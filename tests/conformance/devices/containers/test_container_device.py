@@ -59,7 +59,14 @@ def test_it_has_no_network_no_rights_and_the_variables_that_were_asked_for(podma
     (words,) = stub.runs
     assert words[-3:] == ["--env", "LICENCE", DIGEST]
     text = " ".join(words)
-    for part in ("--network none", "--cap-drop ALL", "--read-only", "--rm", "--pull never"):
+    for part in (
+        "--network none",
+        "--cap-drop ALL",
+        "--read-only",
+        "--rm",
+        "--pull never",
+        "--pids-limit 512",
+    ):
         assert part in text
     assert "secret" not in text
     assert ":/floatref/recordings:ro,Z" in text

@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.conformance.devices.containers.conftest import IMAGE
+from tests.conformance.devices.containers.conftest import DIGEST, IMAGE
 
 from floatref.errors import InputError
 from floatref_conformance.cli.main import main
@@ -48,6 +48,29 @@ def test_an_image_that_is_not_here_is_refused_with_what_to_do(podman):
     podman("")
     with pytest.raises(InputError, match=r"Error: other:1: image not known.*`podman pull`"):
         make("other:1")
+
+
+def other_command(path, has_it):
+    """Write a docker that knows IMAGE, or refuses it."""
+    answer = f"echo {'a7' * 32}" if has_it else "echo unknown to docker >&2; exit 1"
+    path.write_text(f'#!/bin/sh\n[ "$1" = image ] || exit 0\n{answer}\n', encoding="utf-8")
+    path.chmod(0o755)
+
+
+def test_an_image_that_the_other_command_has_is_run_by_it(podman):
+    stub = podman("")
+    other_command(stub.folder / "docker", True)
+    theirs, ours = make("built-by-docker:1"), make(IMAGE)
+    assert (theirs.engine.name, theirs.digest) == ("docker", "a7" * 32)
+    assert (ours.engine.name, ours.digest) == ("podman", DIGEST)
+
+
+def test_an_image_that_no_command_has_is_refused_by_each(podman):
+    stub = podman("")
+    other_command(stub.folder / "docker", False)
+    with pytest.raises(InputError, match=r"podman finds no such.*docker finds no such") as caught:
+        make("other:1")
+    assert "\n" not in str(caught.value)
 
 
 def test_without_a_command_it_is_named_what_to_install(monkeypatch, tmp_path):
