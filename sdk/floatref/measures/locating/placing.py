@@ -124,7 +124,8 @@ def _refine(reference: Profile, run: Profile, best: Find) -> tuple[Placement, fl
     names = list(turned.tracks)
     known = [_follow(reference, forward, name, line, sign) for name in names]
     surest = max(known, key=lambda k: k.correlation)
-    amount = float(np.nanmedian([abs(k.gain) for k in known]))
+    gains = [abs(k.gain) for k in known if math.isfinite(k.gain)]
+    amount = float(np.median(gains)) if gains else math.nan
     unit = height_unit(amount) or METRE
     placement = replace(
         turned,
