@@ -1,6 +1,5 @@
 """The terminal: a progress bar or plain lines while it runs, then a table and the verdict."""
 
-import os
 import textwrap
 from errno import EPIPE
 from typing import Any
@@ -29,7 +28,6 @@ FAILURES = (*wording.FAILED, Outcome.WAIVED)
 """Outcomes whose reason is shown without `--verbose`, too."""
 PLAIN_WIDTH = 100
 """Columns of the table when the width of the output is unknown."""
-NARROWEST = 20
 
 
 class PipedConsole(Console):
@@ -114,12 +112,11 @@ class TerminalRenderer:
 def make_console(stderr: bool = False) -> PipedConsole:
     """Return a console of standard output, or of standard error.
 
-    It has `PLAIN_WIDTH` columns at least where it is no terminal and the variable COLUMNS of the
-    environment does not say how many, and where nothing fits into as many.
+    It has `PLAIN_WIDTH` columns at least where it is no terminal. COLUMNS does not count there:
+    programs that read lines set it for those that they start.
     """
     console = PipedConsole(emoji=False, stderr=stderr)
-    known = console.is_terminal or os.environ.get("COLUMNS", "").isdecimal()
-    if not known or console.width < NARROWEST:
+    if not console.is_terminal:
         console.width = max(console.width, PLAIN_WIDTH)
     return console
 

@@ -20,7 +20,7 @@ from floatref_conformance.judge.events import (
     SearchStarted,
     ShrinkStarted,
 )
-from floatref_conformance.render.terminal import TerminalRenderer, make_console, result_lines
+from floatref_conformance.render.terminal import TerminalRenderer, result_lines
 
 
 def shown(*events, terminal=False, verbose=False):
@@ -149,17 +149,3 @@ def test_a_terminal_shows_the_outcome_of_a_check_when_its_bar_is_gone(check):
 def test_a_waived_failure_is_told_in_the_verdict(check, result):
     text = shown(RunFinished(result(check(Outcome.PASS, "bounce"), check(Outcome.WAIVED))))
     assert "INCOMPLETE: 1 of 2 checks that ran passed; 1 failed and was waived" in text
-
-
-@pytest.mark.parametrize(
-    ("said", "columns"),
-    [(None, 100), ("80", 80), ("132", 132), ("0", 100), ("", 100), ("wide", 100)],
-)
-def test_a_pipe_is_as_wide_as_the_environment_says_else_a_hundred_columns(
-    monkeypatch, said, columns
-):
-    monkeypatch.setattr("sys.stdout", StringIO())
-    monkeypatch.delenv("COLUMNS", raising=False)
-    if said:
-        monkeypatch.setenv("COLUMNS", said)
-    assert make_console().width == columns
