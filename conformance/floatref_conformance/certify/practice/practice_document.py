@@ -127,7 +127,7 @@ def _requirement(index: int, entry: Mapping[str, Any]) -> Requirement:
 
 
 def _check_limit(where: str, quantity: str, limit: float) -> None:
-    """Raise InputError for a limit that every run keeps or no run can keep, and for parts of a run."""
+    """Raise InputError for a limit that every run or no run can keep, and for parts of a run."""
     if quantity in CORRELATIONS and not 0.0 < limit <= 1.0:
         raise InputError(
             f"{where}: limit is {limit:g}; a correlation is from 0 to 1, and all reach 0"
