@@ -58,10 +58,7 @@ class ExecDevice:
 
     def run(self, recording: Path, profile: Path) -> None:
         """Let the program process ``recording``; DeviceError, DeviceHung or DeviceSkipped."""
-        limit_s = self.timeout_s
-        if limit_s is None:
-            limit_s = RUN_S + RUN_PER_LENGTH * length_s(recording)
-        self._start().run(recording, profile, limit_s)
+        self._start().run(recording, profile, limit_of(recording, self.timeout_s))
 
     def close(self) -> None:
         """Stop the program and all its processes; DeviceError if it does not stop properly."""
@@ -76,6 +73,11 @@ class ExecDevice:
         if self._session.device != self._description:
             raise DeviceError("start: the description differs from that at the first start")
         return self._session
+
+
+def limit_of(recording: Path, timeout_s: float | None) -> float:
+    """Return the time in s that a program has for ``recording``: ``timeout_s`` if it is given."""
+    return RUN_S + RUN_PER_LENGTH * length_s(recording) if timeout_s is None else timeout_s
 
 
 def length_s(recording: Path) -> float:

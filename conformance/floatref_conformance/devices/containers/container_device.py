@@ -13,10 +13,9 @@ from floatref_conformance.devices.containers.engine import (
     find_engine,
 )
 from floatref_conformance.devices.containers.running import RunningContainer
-from floatref_conformance.devices.executable import length_s
+from floatref_conformance.devices.executable import limit_of
 from floatref_conformance.devices.interface import DeviceKind
 from floatref_conformance.devices.process import readable
-from floatref_conformance.devices.protocol import RUN_PER_LENGTH, RUN_S
 from floatref_conformance.errors import DeviceError
 
 START_S = 60.0
@@ -59,10 +58,7 @@ class ContainerDevice:
 
     def run(self, recording: Path, profile: Path) -> None:
         """Let the program process ``recording``; DeviceError, DeviceHung or DeviceSkipped."""
-        limit_s = self.timeout_s
-        if limit_s is None:
-            limit_s = RUN_S + RUN_PER_LENGTH * length_s(recording)
-        self._start().run(recording, profile, limit_s)
+        self._start().run(recording, profile, limit_of(recording, self.timeout_s))
 
     def close(self) -> None:
         """Stop the program and remove its container; DeviceError if it does not stop properly."""
