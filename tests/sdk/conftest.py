@@ -1,6 +1,9 @@
-"""Adapters of tests, made known to all commands."""
+"""Adapters of tests, made known to all commands; drives drawn; a browser that draws pages."""
 
-from collections.abc import Callable
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -99,3 +102,25 @@ def steady():
         return Recording(tuple(made), Setup(profile_interval_m=0.05))
 
     return make
+
+
+CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "chrome")
+
+
+# Its driver holds an event loop open, in which no other test of this process could start its own:
+# so each file of tests has one for itself, and ends it.
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    """Return a headless Chromium; without one, CI fails and others skip the test."""
+    found = next(filter(None, map(shutil.which, CHROMIUM)), None)
+    if found is None:
+        reason = f"no browser: install one of {', '.join(CHROMIUM)} (apt-get install chromium)"
+        if os.environ.get("CI"):
+            pytest.fail(reason)
+        pytest.skip(reason)
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield browser
+        browser.close()

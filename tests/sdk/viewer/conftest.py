@@ -1,9 +1,7 @@
-"""How the tests read a page without a browser, and the browser that draws one."""
+"""How the tests read a page without a browser, and what opens one in it."""
 
 import json
-import os
 import re
-import shutil
 from base64 import b64decode
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -19,7 +17,6 @@ from floatref.values.recording import Channel, Recording
 from floatref.viewer import write_profile_page, write_recording_page
 from floatref.viewer.page_file import PageOptions
 
-CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "chrome")
 ARRAY = re.compile(r'<script type="text/plain" id="array-(\d+)">([^<]*)</script>')
 DRAWN = "performance.getEntriesByName('drawn').length > 0"
 DOCUMENT = re.compile(r'<script type="application/json" id="document">(.*?)</script>', re.DOTALL)
@@ -107,23 +104,6 @@ def drive() -> Recording:
         Channel.of("gnss_longitude", 0.2 + angle, slow),
     ]
     return Recording(tuple(channels))
-
-
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Any]:
-    """Return a headless Chromium; without one, CI fails and others skip the test."""
-    found = next(filter(None, map(shutil.which, CHROMIUM)), None)
-    if found is None:
-        reason = f"no browser: install one of {', '.join(CHROMIUM)} (apt-get install chromium)"
-        if os.environ.get("CI"):
-            pytest.fail(reason)
-        pytest.skip(reason)
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

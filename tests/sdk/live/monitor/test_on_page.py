@@ -1,8 +1,6 @@
 """The page in a browser: what it shows, on a screen and a phone, and that it notices the end."""
 
 import json
-import os
-import shutil
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,7 +16,6 @@ from floatref.live.session.watch import Taken
 from floatref.values.clock import UniformClock
 
 pytestmark = pytest.mark.slow
-CHROMIUM = ("chromium", "chromium-browser", "google-chrome", "chrome")
 HOSTILE = "<img src=x onerror=alert(1)>"
 WAIT_MS = 60_000
 
@@ -30,30 +27,14 @@ STREAM = SimpleNamespace(
 )
 
 
-@pytest.fixture(scope="module")
-def browser():
-    found = next(filter(None, map(shutil.which, CHROMIUM)), None)
-    if found is None:
-        reason = f"no browser: install one of {', '.join(CHROMIUM)} (apt-get install chromium)"
-        if os.environ.get("CI"):
-            pytest.fail(reason)
-        pytest.skip(reason)
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as driver:
-        made = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield made
-        made.close()
-
-
 @pytest.fixture
-def opened(browser, monkeypatch):
+def opened(chromium, monkeypatch):
     """Return what opens the page of a monitor; its console has to be empty at the end."""
     monkeypatch.setattr(page_server_module, "PARTING_S", 0.0)
     contexts, said, asked = [], [], []
 
     def call(address, **options):
-        context = browser.new_context(**options)
+        context = chromium.new_context(**options)
         contexts.append(context)
         page = context.new_page()
         page.on("console", lambda message: said.append(message.text))
