@@ -12,9 +12,10 @@ A figure nearer to its limit than that may change sides on another machine. The 
 the figures of the archive, so that its outcome does not change.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import isnan
 
+from floatref_conformance.checks.nees import PathNees
 from floatref_conformance.checks.verdict import CaseResult, Measurement
 from floatref_conformance.classes import Limits
 
@@ -45,6 +46,26 @@ def compare_results(stored: CaseResult, again: CaseResult, share: float) -> Iter
     for name in ("flagged_m", "early_m"):
         if not agrees(getattr(stored, name), getattr(again, name), 1.0, share):
             yield f"{name} is {getattr(stored, name):.7g}, here it is {getattr(again, name):.7g}"
+    yield from _compare_nees(stored.nees, again.nees, share)
+
+
+def _compare_nees(
+    stored: Sequence[PathNees], again: Sequence[PathNees], share: float
+) -> Iterator[str]:
+    """Yield in a line each what differs between two lists of the mean NEES of wheel paths."""
+    counted = [[(n.track, n.points) for n in each] for each in (stored, again)]
+    if counted[0] != counted[1]:
+        yield f"NEES of {_count_points(stored)}, here it is of {_count_points(again)}"
+        return
+    for before, now in zip(stored, again, strict=True):
+        # As large as stated is 1, the least by which errors of an NEES are told.
+        if not agrees(before.mean, now.mean, 1.0, share):
+            what = f"NEES, track {before.track}: {before.mean:.7g}"
+            yield f"{what}, here it is {now.mean:.7g}"
+
+
+def _count_points(found: Sequence[PathNees]) -> str:
+    return ", ".join(f"{n.points} points of {n.track}" for n in found) or "no wheel path"
 
 
 def _compare(stored: Measurement, again: Measurement, share: float) -> Iterator[str]:

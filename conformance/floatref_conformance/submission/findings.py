@@ -31,6 +31,8 @@ class Verification:
         signature: who signed it, or that nobody did, in one line.
         findings: all that contradicts.
         repeated, not_repeated: what was repeated here, and what was not, with the reason.
+        undecided: what has to be at hand before the archive can be repeated at all; empty
+            where it could be.
     """
 
     claimed: str = ""
@@ -39,6 +41,7 @@ class Verification:
     findings: list[Finding] = field(default_factory=list)
     repeated: list[str] = field(default_factory=list)
     not_repeated: list[str] = field(default_factory=list)
+    undecided: str = ""
 
     def contradict(self, where: str, what: str) -> None:
         """Add a contradiction that only repetition shows."""
@@ -46,5 +49,5 @@ class Verification:
 
     @property
     def is_confirmed(self) -> bool:
-        """Whether nothing contradicts."""
-        return not self.findings
+        """Whether the archive was repeated, and nothing contradicts."""
+        return not self.findings and not self.undecided

@@ -21,7 +21,9 @@ from floatref_conformance.devices.python_device import HOST
 from floatref_conformance.devices.recorded import PROFILE, RecordedDevice, cases
 
 SDK, REFERENCE, SUITE = "floatref", "floatref_reference", "floatref_conformance"
-PACKAGES = ("numpy", "scipy", "numba", "hypothesis")
+DRAWER = "hypothesis"
+"""What draws the cases of an edition and a seed: another version may draw others."""
+PACKAGES = ("numpy", "scipy", "numba", DRAWER)
 FURTHER = "further"
 COMPILED = frozenset({".pyc", ".nbi", ".nbc"})
 
@@ -86,6 +88,17 @@ def describe_environment() -> dict[str, str]:
         "machine": platform.machine(),
         "processor": ", ".join(map(str, features.get("found", []))) or "unknown",
     }
+
+
+def describe_other_drawer(environment: Mapping[str, Any]) -> str:
+    """Return with what else than here the cases of an archive were drawn; empty if with the same.
+
+    ``environment`` is what the archive states of its own.
+    """
+    stated, here = environment.get(DRAWER), _version(DRAWER)
+    if stated == here:
+        return ""
+    return f"{DRAWER} {stated or 'of no stated version'}, here it is {here}"
 
 
 def _version(name: str) -> str:

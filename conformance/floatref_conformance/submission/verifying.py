@@ -18,7 +18,11 @@ from floatref_conformance.submission.checksums import SUMS, compare_sums
 from floatref_conformance.submission.device_again import GivenDevice, repeat_device
 from floatref_conformance.submission.document import NAME, Submission, read_json, read_submission
 from floatref_conformance.submission.findings import Verification
-from floatref_conformance.submission.origins import describe_environment, describe_suite
+from floatref_conformance.submission.origins import (
+    describe_environment,
+    describe_other_drawer,
+    describe_suite,
+)
 from floatref_conformance.submission.packing import RESULTS
 from floatref_conformance.submission.rejudging import (
     Repetition,
@@ -120,7 +124,10 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
     verification, results = repetition.verification, repetition.results
     try:
         again = make_report(repetition.submission, results, repetition.registry)
-    except (Departed, SuiteError) as error:
+    except Departed as error:
+        _explain_departure(error, repetition.submission, verification)
+        return None
+    except SuiteError as error:
         # Figures that no run has can stop the judge where those of a run cannot.
         verification.contradict(RESULTS, str(error))
         return None
@@ -134,6 +141,22 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
     if streams:
         verification.not_repeated.append(f"{len(streams)} checks of streams: they need the device")
     return again
+
+
+def _explain_departure(error: Departed, submission: Submission, verification: Verification) -> None:
+    """Contradict an archive of other cases, if what drew them is what draws them here.
+
+    Another version may draw others of the same seed, so that an honest archive would be accused;
+    and whoever states another version than the true one is found as soon as that is at hand.
+    """
+    other = describe_other_drawer(submission.environment)
+    if not other:
+        verification.contradict(RESULTS, str(error))
+        return
+    verification.undecided = (
+        f"the cases were drawn with {other}, which draws others from this seed: verify again where "
+        "the version of the archive is installed, or ask for an archive made with yours"
+    )
 
 
 def _comparable(report: Mapping[str, Any]) -> dict[str, Any]:

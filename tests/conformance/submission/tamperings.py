@@ -154,6 +154,11 @@ def cut(archive):
     archive.members[RESULTS] = archive.members[RESULTS][:-100]
 
 
+def state_nees(found):
+    for result in found:
+        result["nees"] = [["left", 1.0, 100]]
+
+
 WAIVED = [{"check": "toy", "reason": "a new laser in March"}]
 BARE = [{"check": "toy", "reason": " "}]
 TAMPERINGS = (
@@ -176,6 +181,7 @@ TAMPERINGS = (
     Tampering("figures and report", scale_figures(0.95), "here it is", forged=True),
     Tampering("a PASS of a FAIL", pass_all, "here it is", forged=True),
     Tampering("limits and report", scale_figures(1.0, 1.05), "limits", forged=True),
+    Tampering("the NEES", results(state_nees), "NEES of 100 points", forged=True),
     Tampering("a delivered profile", scale("answer-1/left.f64", 1.001), "here it is"),
     Tampering(
         "the truth in place of a profile",

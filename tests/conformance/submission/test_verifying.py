@@ -5,6 +5,14 @@ from tests.conformance.submission.tamperings import toy
 
 from floatref_conformance.submission.findings import CaughtBy
 
+
+def other_seed(submitted):
+    """Give the archive a seed that draws other cases, and checksums that fit."""
+    for name in ("submission.json", "report.json"):
+        submitted.edit(name, lambda found: found.update(seed=found["seed"] + 1))
+    submitted.renew_sums()
+
+
 LATER = [pytest.param(name, marks=pytest.mark.slow) for name in ("good", "halving")]
 
 
@@ -34,3 +42,25 @@ def test_another_device_than_the_submitted_is_named(archive, devices):
     found = archive("clipping").verify(devices["good"]())
     assert {f.caught_by for f in found.findings} == {CaughtBy.REPETITION}
     assert all(f.where.startswith("device: toy") for f in found.findings)
+
+
+@pytest.mark.parametrize("stated", [{"hypothesis": "1.2.3"}, {}], ids=["another", "none"])
+def test_cases_of_another_version_of_hypothesis_are_not_called_a_contradiction(archive, stated):
+    submitted = archive("clipping")
+    other_seed(submitted)
+    assert [f.where for f in submitted.verify().findings] == ["results"]
+    submitted.edit("submission.json", lambda found: found.update(environment=stated))
+    submitted.renew_sums()
+    found = submitted.verify()
+    assert found.findings == []
+    assert not found.is_confirmed
+    assert stated.get("hypothesis", "no stated version") in found.undecided
+
+
+def test_another_version_of_hypothesis_that_draws_the_same_is_confirmed(archive):
+    submitted = archive("clipping")
+    submitted.edit("submission.json", lambda f: f["environment"].update(hypothesis="1.2.3"))
+    submitted.renew_sums()
+    found = submitted.verify()
+    assert found.is_confirmed
+    assert any("hypothesis 1.2.3" in line for line in found.not_repeated)

@@ -68,8 +68,9 @@ def verify(
 ) -> None:
     """Repeat what ARCHIVE rests on, offline, and say what was repeated and what was not.
 
-    Exit code 0: nothing contradicts; 1: something does; 2: wrong usage, or no archive of
-    `conformance submit`; 3: the suite itself is at fault.
+    Exit code 0: nothing contradicts; 1: something does; 2: wrong usage, no archive of
+    `conformance submit`, or one that this version of hypothesis cannot repeat; 3: the suite itself
+    is at fault.
     """
     for path in files if signers is None else (signers, *files):
         check_file(path)
@@ -81,7 +82,21 @@ def verify(
     with name_errors(archive):
         found = verify_members(members, Wanted(signers, given, every_case), load_registry)
     click.echo(json.dumps(_document(found), indent=2) if as_json else _show(archive, found))
-    context.exit(0 if found.is_confirmed else 1)
+    context.exit(_exit_code(found))
+
+
+def _exit_code(found: Verification) -> int:
+    """Return 0 for a confirmed archive, 1 for a contradiction, 2 where more has to be at hand."""
+    if found.findings:
+        return 1
+    return 2 if found.undecided else 0
+
+
+def _conclude(found: Verification) -> str:
+    if found.is_confirmed:
+        return "confirmed: nothing contradicts"
+    count = len(found.findings)
+    return f"not confirmed: {count} found" if count else "not confirmed: it was not repeated"
 
 
 def _document(found: Verification) -> dict[str, Any]:
@@ -95,7 +110,7 @@ def _show(archive: Path, found: Verification) -> str:
     lines += ["Repeated:", *(f"  {line}" for line in found.repeated)]
     lines += ["Not repeated:", *(f"  {line}" for line in found.not_repeated)]
     lines += [f"Contradicted ({f.caught_by}): {f.where}: {f.what}" for f in found.findings]
-    count = len(found.findings)
-    lines.append("confirmed: nothing contradicts" if not count else f"not confirmed: {count} found")
+    lines += [f"Undecided: {found.undecided}"] if found.undecided else []
+    lines.append(_conclude(found))
     # A name in the archive with a line break would make a line that looks like one of ours.
     return "\n".join(one_line(printable(line)) for line in lines)

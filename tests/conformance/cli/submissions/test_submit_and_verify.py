@@ -14,6 +14,7 @@ from floatref_conformance.cli.submissions import submit as submit_command
 from floatref_conformance.cli.submissions import verify as verify_command
 from floatref_conformance.cli.submissions.verify import FORMAT
 from floatref_conformance.resemblance import naming
+from floatref_conformance.submission.checksums import SUMS, list_sums
 from floatref_conformance.submission.stored_zip import read_archive, write_archive
 
 
@@ -52,6 +53,25 @@ def test_the_same_input_gives_the_same_archive(submit, tmp_path):
     before = (tmp_path / "a.zip").read_bytes()
     submit("clipping", "--overwrite")
     assert (tmp_path / "a.zip").read_bytes() == before
+
+
+@pytest.mark.slow
+def test_cases_of_another_hypothesis_end_with_2_and_name_it(call, submit, tmp_path):
+    submit("good")
+    members = dict(read_archive(tmp_path / "a.zip"))
+    for name in ("submission.json", "report.json"):
+        found = json.loads(members[name]) | {"seed": 1}
+        found.get("environment", {})["hypothesis"] = "1.2.3"
+        members[name] = json.dumps(found).encode()
+    members.pop(SUMS)
+    write_archive(members | {SUMS: list_sums(members)}, tmp_path / "a.zip", overwrite=True)
+    verified = call("verify", "a.zip")
+    assert verified.exit_code == 2, verified.output
+    assert "Undecided: the cases were drawn with hypothesis 1.2.3" in verified.stdout
+    assert verified.stdout.endswith("not confirmed: it was not repeated\n")
+    found = json.loads(call("verify", "a.zip", "--json").stdout)
+    assert not found["confirmed"]
+    assert "1.2.3" in found["undecided"]
 
 
 @pytest.mark.slow
