@@ -12,7 +12,7 @@ from floatref.values.profile import Profile, ProfileTrack
 from floatref.values.recording import Channel, Recording, Setup
 from floatref_conformance.proving_ground.parked import park
 from floatref_conformance.proving_ground.roads.road import Road
-from floatref_conformance.proving_ground.roads.wander import Line
+from floatref_conformance.proving_ground.roads.wander import STRAIGHT, Line
 from floatref_conformance.proving_ground.scenario import STATIONARY, Scenario
 from floatref_conformance.proving_ground.sensors.chain import Chain, VerticalError
 from floatref_conformance.proving_ground.sensors.gauging import as_installed, response_channels
@@ -31,7 +31,7 @@ from floatref_conformance.proving_ground.staging import (
     suite_of,
     vehicle_of,
 )
-from floatref_conformance.proving_ground.tracking import Ground, read_beside
+from floatref_conformance.proving_ground.tracking import Ground, line_of, read_beside
 from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, drive_over
 
 
@@ -70,6 +70,8 @@ def simulate(
         return _record(scenario, suite.idling(), motion, setup)
     drive, course = drive_of(scenario), course_of(scenario)
     vehicle = vehicle_of(scenario)
+    # A vehicle on a road that is given keeps to its wheel paths.
+    line = STRAIGHT if isinstance(road, Road) else line_of(scenario)
     ground = ground_of(scenario, drive.length_m) if road is None else _ground(scenario, road)
     road = ground.rolled
     _check_road(scenario, road, drive.length_m)
@@ -79,7 +81,7 @@ def simulate(
     motion = drive_over(
         vehicle, road, course, drive, drive.duration_s, scenario.rate_hz, setup, kept, ground.read
     )
-    return _record(scenario, suite, motion, setup)
+    return _record(scenario, suite, motion, setup, line)
 
 
 def stationary(
@@ -116,7 +118,13 @@ def truth_of(motion: BodyMotion, interval_m: float) -> Profile:
     return Profile(interval_m, tuple(tracks), pipeline="truth")
 
 
-def _record(scenario: Scenario, suite: SensorSuite, motion: BodyMotion, setup: Setup) -> Simulation:
+def _record(
+    scenario: Scenario,
+    suite: SensorSuite,
+    motion: BodyMotion,
+    setup: Setup,
+    line: Line = STRAIGHT,
+) -> Simulation:
     """Return what the sensors make of a motion, and the truth."""
     chain = Chain(suite, scenario.seed, motion)
     channels, errors = [chain.distance()], {}
@@ -131,7 +139,7 @@ def _record(scenario: Scenario, suite: SensorSuite, motion: BodyMotion, setup: S
         channels += chain.gyros()
     if scenario.gnss:
         standing = scenario.manoeuvre in STATIONARY
-        channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m, standing)
+        channels += gnss_channels(chain, setup, course_of(scenario).curvature_per_m, standing, line)
     if motion.suspension is not None:
         channels += response_channels(suite, scenario.seed, motion.suspension, setup)
     channels += _more_distances(scenario, chain, setup)
@@ -167,7 +175,7 @@ def _ground(scenario: Scenario, road: Road | Ground) -> Ground:
     if scenario.laser_line_mm == 0:
         return Ground(road, road)
     seed = scenario.seed if scenario.road_seed < 0 else scenario.road_seed
-    return read_beside(road, Line(seed, 0.0, 0.0), seed, scenario.laser_line_mm / 1000)
+    return read_beside(road, STRAIGHT, seed, scenario.laser_line_mm / 1000)
 
 
 def _check_road(scenario: Scenario, road: Road, length_m: float) -> None:

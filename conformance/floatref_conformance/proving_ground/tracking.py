@@ -31,6 +31,11 @@ class Ground(NamedTuple):
     read: Road
 
 
+def line_of(scenario: Scenario) -> Line:
+    """Return the line that ``scenario.seed`` draws."""
+    return Line(scenario.seed, scenario.wander_m, scenario.wander_within_m)
+
+
 def follow_line(
     scenario: Scenario, road: Road, length_m: float, road_seed: int, factor: float
 ) -> Ground:
@@ -50,7 +55,7 @@ def follow_line(
     Raises:
         InputError: for a surface too narrow for the line, or with a hole under it.
     """
-    line = Line(scenario.seed, scenario.wander_m, scenario.wander_within_m)
+    line = line_of(scenario)
     width_m = scenario.laser_line_mm / 1000
     if (line.is_straight and width_m == 0) or scenario.road in ALIKE_SIDEWAYS:
         return Ground(road, road)

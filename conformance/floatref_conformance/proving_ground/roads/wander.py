@@ -83,3 +83,7 @@ class Line:
     def _stream(self, name: str) -> np.random.Generator:
         key = (crc32(name.encode()),)
         return np.random.default_rng(np.random.SeedSequence(self.seed, spawn_key=key))
+
+
+STRAIGHT = Line(0, 0.0, 0.0)
+"""The line of a vehicle that keeps exactly to its wheel paths."""

@@ -5,6 +5,7 @@ import numpy as np
 from floatref.values.arrays import FloatArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Setup, Vector
+from floatref_conformance.proving_ground.roads.wander import STRAIGHT, Line
 from floatref_conformance.proving_ground.sensors.chain import Chain, sample_rows
 from floatref_conformance.proving_ground.sensors.noise import gauss_markov, stream
 
@@ -17,15 +18,19 @@ EARTH_RADIUS_M = 6371e3
 
 
 def gnss_channels(
-    chain: Chain, setup: Setup, curvature: float, standing: bool = False
+    chain: Chain, setup: Setup, curvature: float, standing: bool = False, line: Line = STRAIGHT
 ) -> tuple[Channel, ...]:
     """Return all GNSS channels on the receiver's own time stamps.
+
+    The antenna is as far aside as the vehicle's line is below it; that the body points along a
+    wandering line, by milliradians, is left out.
 
     Args:
         chain: suite, seed and true motion.
         setup: where the antenna and the first track's reference point sit.
         curvature: of the course, left turn positive, in 1/m.
         standing: the vehicle is parked and its distance an artificial encoder's.
+        line: that the vehicle drives beside its wheel paths.
     """
     times, at = chain.sample_times(FIRST_S, chain.suite.gnss_rate_hz)
     fixes = times.size
@@ -38,7 +43,7 @@ def gnss_channels(
         **_vertical(chain, at, attitude, lever),
         "gnss_pitch": attitude[0],
         "gnss_roll": np.arcsin(np.cos(attitude[0]) * np.sin(attitude[1])),
-        **_horizontal(travel, antenna, curvature),
+        **_horizontal(travel, line.at(travel), antenna[0], curvature),
     }
     clock = StampedClock.of(times)
     errors = _errors(chain)
@@ -97,12 +102,17 @@ def _vertical(
     }
 
 
-def _horizontal(travel: FloatArray, antenna_m: Vector, curvature: float) -> dict[str, FloatArray]:
-    """Return latitude and longitude in rad after ``travel`` in m at constant curvature."""
+def _horizontal(
+    travel: FloatArray, left: FloatArray, ahead: float, curvature: float
+) -> dict[str, FloatArray]:
+    """Return latitude and longitude in rad after ``travel`` in m at constant curvature.
+
+    The antenna is ``ahead`` of the course's point in m, and ``left`` of it at every fix.
+    """
     heading = curvature * travel
     chord = travel * np.sinc(heading / (2 * np.pi))
-    north = chord * np.cos(heading / 2) + antenna_m[0] * np.cos(heading)
-    west = chord * np.sin(heading / 2) + antenna_m[0] * np.sin(heading)
+    north = chord * np.cos(heading / 2) + ahead * np.cos(heading) - left * np.sin(heading)
+    west = chord * np.sin(heading / 2) + ahead * np.sin(heading) + left * np.cos(heading)
     latitude, longitude = START_RAD
     return {
         "gnss_latitude": latitude + north / EARTH_RADIUS_M,
