@@ -14,7 +14,7 @@ from floatref_conformance.table import (
     rank_correlations,
 )
 
-pytestmark = [pytest.mark.slow, pytest.mark.cites("Tables 5.3 to 5.12")]
+pytestmark = [pytest.mark.slow, pytest.mark.nightly, pytest.mark.cites("Tables 5.3 to 5.12")]
 STOPS = [name for name, run in RUNS.items() if run.kind == "stop"]
 LONG_STOPS = [name for name in STOPS if (RUNS[name].dwell_s or 0.0) >= 5.0]
 CHAPTER_5 = tuple(
@@ -37,7 +37,6 @@ def peak(table: ComparisonTable, pipeline: str, run: str) -> float:
     return table.cell(pipeline, run).mean.peak_m_per_km
 
 
-@pytest.mark.nightly
 def test_the_basic_algorithms_fail_at_every_stop(table: ComparisonTable) -> None:
     for run in STOPS:
         for pipeline in ("temporal-basic", "spatial-basic"):
