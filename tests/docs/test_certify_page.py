@@ -96,5 +96,5 @@ def test_exit_codes_files_and_numbers_are_those_of_the_code() -> None:
 
 def test_every_picture_is_there() -> None:
     pictures = re.findall(r"!\[.+?\]\((.+?)\)", PAGE)
-    assert len(pictures) == 4
+    assert len(pictures) == 5
     assert all((DOCS / picture).is_file() for picture in pictures)
