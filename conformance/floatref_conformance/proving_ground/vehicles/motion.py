@@ -173,8 +173,13 @@ def stretches(count: int) -> Iterator[tuple[int, int]]:
 
 
 def empty_rows(tracks: int, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return arrays for travel, shared and per-track rows of ``count`` samples, unset."""
+    """Return arrays for travel, shared and per-track rows of ``count`` samples, unset.
+
+    Rows have room behind them, as those of a stretch of a drive have: so `kernels.at_points` is
+    compiled once, and not again for a vehicle that is parked.
+    """
     from floatref_conformance.proving_ground.kernels import SHARED_ROWS, TRACK_ROWS
 
-    shared = np.empty((SHARED_ROWS, count))
-    return np.empty((3, count)), shared, np.empty((tracks, TRACK_ROWS, count))
+    room, used = count + 1, slice(count)
+    shared = np.empty((SHARED_ROWS, room))[:, used]
+    return np.empty((3, room))[:, used], shared, np.empty((tracks, TRACK_ROWS, room))[..., used]
