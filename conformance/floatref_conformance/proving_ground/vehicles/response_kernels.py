@@ -142,7 +142,7 @@ def _take_inputs(
     for w in range(INPUTS):
         now = ground[max(w - WHEELS, 0), k]
         if w < WHEELS:
-            now = elevation_at(lanes[w], (distance + wheel_x[w] - grid[0]) * grid[1])
+            now = elevation_at(lanes, w, (distance + wheel_x[w] - grid[0]) * grid[1])
         sums[STATES + w] = vector[STATES + w] + now
         vector[STATES + w] = now
 
