@@ -20,8 +20,8 @@ _mallopt = getattr(ctypes.CDLL(None), "mallopt", None) if sys.platform == "linux
 def keep_memory() -> bool:
     """Have this process keep memory that it has freed; return whether its allocator can.
 
-    Its threads then share one heap: with one for each, every heap would keep memory, and none
-    could hold a large array.
+    Its threads then share one heap: with one for each, every heap would keep memory, and those of
+    threads are too small for a large array.
     """
     # The others alone would have every array taken from the system, as large ones are.
     if _mallopt is None or not _mallopt(MMAP_THRESHOLD, LARGEST_BYTES):
