@@ -19,6 +19,7 @@ from typing import Any, TypeVar
 
 from floatref.files.scratch import scratch_folder
 from floatref_conformance.errors import SuiteError
+from floatref_conformance.kept_memory import keep_memory
 from floatref_conformance.parent_death import end_with_parent
 
 Result = TypeVar("Result")
@@ -107,6 +108,7 @@ def _prepare_worker(scratch: str) -> None:
     tempfile.tempdir = scratch
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     end_with_parent()
+    keep_memory()
 
 
 @contextmanager

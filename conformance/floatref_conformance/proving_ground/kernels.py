@@ -16,22 +16,26 @@ TRACK_ROWS, SHARED_ROWS = 8, 5
 
 
 @compiled
-def elevation_at(row: FloatArray, position: float) -> float:
-    """Return ``row`` at a fractional index: linear between points, constant beyond the ends."""
+def elevation_at(rows: FloatArray, row: int, position: float) -> float:
+    """Return a row of ``rows`` at a fractional index: linear between points, constant beyond.
+
+    The row is named and not handed over: a view of it is counted, which takes as long again.
+    """
     if position <= 0.0:
-        return float(row[0])
-    index = int(position)
-    if index >= row.size - 1:
-        return float(row[row.size - 1])
-    below = row[index]
-    return float(below + (position - index) * (row[index + 1] - below))
+        return float(rows[row, 0])
+    index, last = int(position), rows.shape[1] - 1
+    if index >= last:
+        return float(rows[row, last])
+    below = rows[row, index]
+    return float(below + (position - index) * (rows[row, index + 1] - below))
 
 
 @compiled
 def footprint(
     paths: FloatArray,
     grid: FloatArray,
-    pair: FloatArray,
+    pairs: FloatArray,
+    track: int,
     lens: Vector,
     beam: Vector,
     guess: float,
@@ -39,15 +43,16 @@ def footprint(
     """Return the range in m from the ``lens`` against the ``beam`` (body Z) down to the road.
 
     Fixed-point iteration of (2.18) over the road under the footprint; it converges as the
-    road's slope times the body's tilt. ``pair`` holds the rows of the wheel paths to the right
-    and left of the track, the lateral position of the first in m and 1 / their distance.
+    road's slope times the body's tilt. ``pairs[track]`` holds the rows of the wheel paths to the
+    right and left of the track, the lateral position of the first in m and 1 / their distance.
     """
     x, y, z = lens
+    right_row, left_row = int(pairs[track, 0]), int(pairs[track, 1])
     for _ in range(50):
         position = (x - guess * beam[0] - grid[0]) * grid[1]
-        right = elevation_at(paths[int(pair[0])], position)
-        left = elevation_at(paths[int(pair[1])], position)
-        weight = (y - guess * beam[1] - pair[2]) * pair[3]
+        right = elevation_at(paths, right_row, position)
+        left = elevation_at(paths, left_row, position)
+        weight = (y - guess * beam[1] - pairs[track, 2]) * pairs[track, 3]
         last, guess = guess, (z - right - weight * (left - right)) / beam[2]
         if abs(guess - last) < 1e-11:
             break
@@ -111,7 +116,7 @@ def at_points(
             tracks[t, R_Z, k] = up[0] * travel[0, k] + up[2] * zeta + dot(vertical, r)
             p = (r[0] + points[t, 3], r[1] + points[t, 4], r[2])
             lens = (travel[0, k] + dot(frame[0], p), dot(frame[1], p), zeta + dot(frame[2], p))
-            h = guess[t] = footprint(paths, grid, pairs[t], lens, beam, guess[t])
+            h = guess[t] = footprint(paths, grid, pairs, t, lens, beam, guess[t])
             tracks[t, RANGE, k], tracks[t, ROAD, k] = h, dot(up, lens) - h * dot(up, beam)
 
 

@@ -48,6 +48,17 @@ def frozen(values: ArrayLike) -> FloatArray:
     return view
 
 
+def read_only(values: FloatArray) -> FloatArray:
+    """Return a read-only view of ``values``, of any layout, whose changes it shows.
+
+    A kernel is compiled anew for an array that is read-only where another one was not, so callers
+    that meet both give it this.
+    """
+    view = values.view()
+    view.flags.writeable = False
+    return view
+
+
 def new_records(count: int, fields: np.dtype[np.void]) -> Records:
     """Return ``count`` records of these ``fields``, all zero."""
     return cast(Records, np.zeros(count, fields))

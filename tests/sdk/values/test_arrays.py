@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from floatref.values.arrays import frozen, release
+from floatref.values.arrays import frozen, read_only, release
 
 SAMPLES = np.arange(100_000.0)
 
@@ -54,3 +54,14 @@ def test_a_column_of_a_table_becomes_an_array_of_its_own():
     assert column.flags.c_contiguous
     assert column.tolist() == [1.0, 4.0, 7.0, 10.0]
     assert np.shares_memory(frozen(table[2]), table)
+
+
+@pytest.mark.parametrize("step", [1, 2])
+def test_a_read_only_view_shows_later_changes_and_makes_none(step: int) -> None:
+    values = SAMPLES.copy()[::step]
+    view = read_only(values)
+    values[3] = -1.0
+    assert view[3] == -1.0
+    assert values.flags.writeable
+    with pytest.raises(ValueError, match="read-only"):
+        view[3] = 0.0

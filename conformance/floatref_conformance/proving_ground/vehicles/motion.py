@@ -157,12 +157,16 @@ def _decimate(tracks: FloatArray, every: int) -> FloatArray:
     if every % 2 == 0:
         weights[[0, -1]] = 0.5
     weights /= every
-    centres = np.arange(fewer.shape[2]) * every
+    last = fewer.shape[2] - 1
     for row in (F_X, F_Y, F_Z, A_Z):
         fewer[:, row] = 0.0
-        for weight, offset in zip(weights, offsets, strict=True):
-            index = np.clip(centres + offset, 0, tracks.shape[2] - 1)
-            fewer[:, row] += weight * tracks[:, row, index]
+        for weight, offset in zip(weights, offsets.tolist(), strict=True):
+            inside = slice(every + offset, last * every + offset, every)
+            fewer[:, row, 1:last] += weight * tracks[:, row, inside]
+            for end in {0, last}:
+                # Beyond the drive its first and its last sample go on.
+                at = min(max(end * every + offset, 0), tracks.shape[2] - 1)
+                fewer[:, row, end] += weight * tracks[:, row, at]
     return fewer
 
 
@@ -173,8 +177,13 @@ def stretches(count: int) -> Iterator[tuple[int, int]]:
 
 
 def empty_rows(tracks: int, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return arrays for travel, shared and per-track rows of ``count`` samples, unset."""
+    """Return arrays for travel, shared and per-track rows of ``count`` samples, unset.
+
+    Rows have room behind them, as those of a stretch of a drive have: so `kernels.at_points` is
+    compiled once, and not again for a vehicle that is parked.
+    """
     from floatref_conformance.proving_ground.kernels import SHARED_ROWS, TRACK_ROWS
 
-    shared = np.empty((SHARED_ROWS, count))
-    return np.empty((3, count)), shared, np.empty((tracks, TRACK_ROWS, count))
+    room, used = count + 1, slice(count)
+    shared = np.empty((SHARED_ROWS, room))[:, used]
+    return np.empty((3, room))[:, used], shared, np.empty((tracks, TRACK_ROWS, room))[..., used]

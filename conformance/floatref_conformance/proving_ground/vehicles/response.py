@@ -201,12 +201,16 @@ def corners_of(vehicle: Suspended, step_s: float, at_rest: FloatArray) -> Corner
 def under_wheels(vehicle: Suspended, road: Road) -> FloatArray:
     """Return the road as each tyre feels it, shape (4, m), in m; zeros without a tyre.
 
-    Linear in y between the wheel paths, averaged over the tyre's envelope.
+    Linear in y between the wheel paths, averaged over the tyre's envelope. Tyres behind each other
+    feel one road.
     """
     x = road.distance_m
     lanes = np.zeros((TYRES, x.size))
+    felt: dict[float, FloatArray] = {}
     for lane, (_, y) in zip(lanes, vehicle.contacts(), strict=False):
-        lane[:] = envelope_of(road.across(x, np.full(x.size, y)), road.spacing_m)
+        if y not in felt:
+            felt[y] = envelope_of(road.across(x, np.full(x.size, y)), road.spacing_m)
+        lane[:] = felt[y]
     return lanes
 
 

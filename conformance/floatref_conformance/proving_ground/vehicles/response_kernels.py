@@ -61,7 +61,7 @@ def respond(
         combine(outputs, vector, second)
         _write(body, k, vector, pose, second)
         if kept < steps.size and steps[kept] == k:
-            states[kept, :] = vector
+            _keep(states, kept, vector)
             kept += 1
 
 
@@ -108,7 +108,7 @@ def respond_with_corners(
                 second[i] += corners.lift[i, c] * corners.force[c]
         _write(body, k, vector, pose, second)
         if kept < steps.size and steps[kept] == k:
-            states[kept, :] = vector
+            _keep(states, kept, vector)
             kept += 1
 
 
@@ -142,7 +142,7 @@ def _take_inputs(
     for w in range(INPUTS):
         now = ground[max(w - WHEELS, 0), k]
         if w < WHEELS:
-            now = elevation_at(lanes[w], (distance + wheel_x[w] - grid[0]) * grid[1])
+            now = elevation_at(lanes, w, (distance + wheel_x[w] - grid[0]) * grid[1])
         sums[STATES + w] = vector[STATES + w] + now
         vector[STATES + w] = now
 
@@ -156,6 +156,16 @@ def _write(
         body[i, k] = vector[pose[i]]
         body[3 + i, k] = vector[pose[3 + i]]
         body[6 + i, k] = second[i]
+
+
+@compiled
+def _keep(states: FloatArray, row: int, vector: FloatArray) -> None:
+    """Write ``vector`` to a row of ``states``, one by one.
+
+    For an assignment of arrays numba would compile the text of its error as well: 36 functions.
+    """
+    for i in range(STATES + INPUTS):
+        states[row, i] = vector[i]
 
 
 @compiled

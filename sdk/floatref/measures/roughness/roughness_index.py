@@ -15,7 +15,7 @@ from floatref.errors import InputError
 from floatref.measures.gaps import bridge, check_elevation, measured_stretch
 from floatref.measures.roughness.iri_settings import IriSettings
 from floatref.measures.roughness.quarter_car import GOLDEN_CAR, KMH, Modes, QuarterCar
-from floatref.values.arrays import FloatArray, release
+from floatref.values.arrays import FloatArray, read_only, release
 from floatref.values.scanning import CHUNK, chunks
 
 M_PER_KM = 1000.0
@@ -158,7 +158,7 @@ class _Run:
         values = check_elevation(elevation, interval_m)
         window, start = settings.window(interval_m), settings.start_count(interval_m)
         stretch = measured_stretch(values)
-        measured = bridge(values[stretch])
+        measured = read_only(bridge(values[stretch]))
         if measured.size <= start:
             raise InputError(
                 f"{(measured.size - 1) * interval_m:g} m of profile were measured; the car needs "

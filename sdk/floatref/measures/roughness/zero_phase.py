@@ -12,7 +12,7 @@ from floatref.kernels.state_variable import (
     low_pass_1,
     low_pass_2,
 )
-from floatref.values.arrays import FloatArray, new_record
+from floatref.values.arrays import FloatArray, new_record, read_only
 
 
 def _c(interval: float, cutoff_wavelength: float) -> float:
@@ -30,9 +30,10 @@ def high_pass_b3x2(
     """
     c = _c(interval, cutoff_wavelength)
     y = np.empty(x.size) if out is None else out
-    high_pass_1(x, y, new_record(STATE_VARIABLE), c, False)
-    high_pass_21(y, y, new_record(STATE_VARIABLE), new_record(STATE_VARIABLE), c, True)
-    high_pass_2(y, y, new_record(STATE_VARIABLE), c, False)
+    high_pass_1(read_only(x), y, new_record(STATE_VARIABLE), c, False)
+    seen = read_only(y)
+    high_pass_21(seen, y, new_record(STATE_VARIABLE), new_record(STATE_VARIABLE), c, True)
+    high_pass_2(seen, y, new_record(STATE_VARIABLE), c, False)
     return y
 
 
@@ -47,8 +48,9 @@ def low_pass_b3x2(
     """
     c = _c(interval, cutoff_wavelength)
     y = np.empty(x.size) if out is None else out
-    low_pass_1(x, y, new_record(STATE_VARIABLE), c, False)
-    low_pass_2(y, y, new_record(STATE_VARIABLE), c, True)
-    low_pass_1(y, y, new_record(STATE_VARIABLE), c, True)
-    low_pass_2(y, y, new_record(STATE_VARIABLE), c, False)
+    low_pass_1(read_only(x), y, new_record(STATE_VARIABLE), c, False)
+    seen = read_only(y)
+    low_pass_2(seen, y, new_record(STATE_VARIABLE), c, True)
+    low_pass_1(seen, y, new_record(STATE_VARIABLE), c, True)
+    low_pass_2(seen, y, new_record(STATE_VARIABLE), c, False)
     return y

@@ -14,6 +14,7 @@ from floatref.values.arrays import (
     IndexArray,
     new_record,
     new_records,
+    read_only,
     release,
 )
 from floatref.values.recording import Channel
@@ -99,7 +100,7 @@ class Usual:
         memory, held = holds.new_count(), np.zeros(holds.LONGEST, np.int64)
         for _, chunk in chunks(values):
             holds.count_runs(chunk, over, memory, held)
-        holds.count_runs(np.array([np.nan]), over, memory, held)
+        holds.count_runs(read_only(np.array([np.nan])), over, memory, held)
         return cls(held, int(memory.in_long), float(memory.quantum))
 
     @property

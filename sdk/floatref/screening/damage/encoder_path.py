@@ -5,7 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from floatref.screening.damage.damaged_samples import NONE
-from floatref.values.arrays import BoolArray, FloatArray, IndexArray, Records, new_records
+from floatref.values.arrays import (
+    BoolArray,
+    FloatArray,
+    IndexArray,
+    Records,
+    new_records,
+    read_only,
+)
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel
 from floatref.values.scanning import CHUNK, chunks, take
@@ -107,7 +114,8 @@ def _follow(channel: Channel) -> tuple[Records, float, IndexArray, FloatArray]:
     knots, spans, depths = [new_records(0, encoder_progress.KNOT)], [NONE], [np.empty(0)]
     for first, chunk in chunks(values, overlap=1):
         count = min(chunk.size, CHUNK)
-        times = stamps[first : first + count]
+        # Read-only, whatever they come as: so the kernel is compiled once.
+        chunk, times = read_only(chunk), read_only(stamps[first : first + count])
         rows = new_records(count, encoder_progress.KNOT)
         back, deep = np.empty((count, 2), np.int64), np.empty(count)
         found, behind = encoder_progress.follow(

@@ -12,7 +12,7 @@ from floatref.kernels.cut_off import low_pass_setting as low_pass_setting
 from floatref.kernels.memories import STATE_VARIABLE
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Direction, Stage
-from floatref.values.arrays import FloatArray, new_record
+from floatref.values.arrays import FloatArray, new_record, read_only
 from floatref.values.block import Block, Header
 from floatref.values.channels import ChannelId
 
@@ -68,7 +68,8 @@ class ButterworthStage(Stage):
             (False, 1): state_variable.low_pass_1,
             (False, 2): state_variable.low_pass_2,
         }[self.passes_high, self.order]
-        kernel(x, y, memory, self._c, self.direction is Direction.BACKWARD)
+        # Read-only or not: the kernel is compiled for one of them alone.
+        kernel(read_only(x), y, memory, self._c, self.direction is Direction.BACKWARD)
 
     def _channels(self, tracks: tuple[str, ...]) -> list[ChannelId]:
         return [ChannelId(self.channel, track) for track in tracks]

@@ -1,5 +1,6 @@
 """Laws of the rigid body that carries the sensors: (2.17)-(2.20), footprint, slopes, turns."""
 
+import numba
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -247,3 +248,9 @@ def test_braking_pitches_the_nose_down_and_cornering_rolls_outward() -> None:
     left_turn = Course(curvature_per_m=0.005)
     turned = drive_over(LOADED_VAN, road, left_turn, steady, 3.0, 1000.0, setup)
     assert turned.roll[-1] > np.radians(0.5)
+
+
+def test_a_parked_vehicle_and_a_stretch_of_a_drive_have_rows_of_one_layout():
+    # Another layout would have the kernel compiled again.
+    parked, driven = empty_rows(2, 90), (rows[..., :40] for rows in empty_rows(2, 90))
+    assert [numba.typeof(rows) for rows in parked] == [numba.typeof(rows) for rows in driven]
