@@ -158,7 +158,8 @@ def test_batch_ranks_the_right_road_and_marks_what_is_left_of_it(
         [replace(row, **dict.fromkeys(ALL_POINTS, 0.0)) for _, _, row in tally.roughest]
         for tally in (good, bad)
     ]
-    assert kept[0] == kept[1]
+    # As texts: a NaN is not equal to itself in a dataclass, from Python 3.13 on.
+    assert repr(kept[0]) == repr(kept[1])
     assert good.not_ranked == bad.not_ranked
     assert all(row.counted_share * row.length_m >= SEGMENT_M / 2 - 1.0 for row in kept[1])
     for record in records(seed, spans, wrong=True):

@@ -80,7 +80,9 @@ def test_around_a_critical_location_both_are_seen_at_the_same_road() -> None:
 def test_every_point_counts_valid_or_not() -> None:
     z = rough(3)
     found = compared(STEADY, z).scores(profile(z[::-1].copy()))
-    assert compared(STEADY, z).scores(profile(z[::-1].copy(), valid=slice(0, 1))) == found
+    marked = compared(STEADY, z).scores(profile(z[::-1].copy(), valid=slice(0, 1)))
+    # As texts: a NaN is not equal to itself in a dataclass, from Python 3.13 on.
+    assert repr(marked) == repr(found)
 
 
 def test_wheel_paths_are_matched_by_name_in_the_order_of_the_reference() -> None:

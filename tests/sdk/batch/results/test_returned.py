@@ -30,7 +30,9 @@ def test_records_come_back_in_the_order_of_the_jobs(
         for index in done:
             returned.add(record(index, warning))
         jobs = [Job(out, f"a/run{index}", out) for index in given]
-        assert list(returned.of(jobs)) == [record(index, warning) for index in given]
+        # As texts: a NaN is not equal to itself in a dataclass, from Python 3.13 on.
+        expected = [repr(record(index, warning)) for index in given]
+        assert list(map(repr, returned.of(jobs))) == expected
 
 
 def test_nothing_of_it_is_left(tmp_path: Path) -> None:

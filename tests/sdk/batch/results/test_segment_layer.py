@@ -57,7 +57,8 @@ def test_fixes_that_are_missing_break_the_line(recording: Recording) -> None:
 
 def test_a_record_comes_back_with_lines_and_measures(record: Record, tmp_path: Path) -> None:
     write_record(record, tmp_path / "record.json")
-    assert read_record(tmp_path / "record.json").rows == record.rows
+    # As texts: a NaN is not equal to itself in a dataclass, from Python 3.13 on.
+    assert repr(read_record(tmp_path / "record.json").rows) == repr(record.rows)
 
 
 def test_a_record_of_an_earlier_version_has_neither(record: Record, tmp_path: Path) -> None:
