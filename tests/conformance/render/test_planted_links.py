@@ -45,6 +45,18 @@ def test_a_report_replaces_a_link_in_its_place(
 
 
 @pytest.mark.posix
+def test_a_report_is_not_written_through_a_link_beside_it(
+    tmp_path: Path, valuable: Path, monkeypatch: pytest.MonkeyPatch, check, result
+) -> None:
+    """Even if a device could know the name under which it is written at first."""
+    monkeypatch.setattr(report, "own_name", lambda: "guessed")
+    (tmp_path / "guessed").symlink_to(valuable)
+    with pytest.raises(FileExistsError):
+        JsonReport.into(tmp_path).handle(RunFinished(result(check(Outcome.PASS))))
+    assert valuable.read_text(encoding="utf-8") == "mine"
+
+
+@pytest.mark.posix
 def test_cases_are_not_written_through_a_link(tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "report").mkdir()
