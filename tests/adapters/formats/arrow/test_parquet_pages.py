@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from floatref import InputError, Profile, ProfileTrack
 from floatref_adapters.formats.arrow.adapter import Parquet
-from floatref_adapters.formats.arrow.parquet_pages import check_pages
+from floatref_adapters.formats.arrow.parquet_pages import ALWAYS, LARGEST_RATIO, check_pages
 from floatref_adapters.formats.arrow.parquet_profile import ParquetProfile
 from floatref_adapters.formats.arrow.thrift_compact import Compact
 
@@ -70,6 +70,16 @@ def test_a_page_that_declares_two_gigabytes_is_refused(
     (stream,) = Parquet().streams(path, {}).streams
     with pytest.raises(InputError, match=r"column time_s: (a page of|no page at)"):
         list(stream.read(["a"]))
+
+
+def test_a_page_that_unpacks_to_more_than_its_bytes_can_be_is_refused(tmp_path: Path) -> None:
+    """Its header and the footer agree, so that the file is sound."""
+    path = tmp_path / "a.parquet"
+    table = pa.table({"a": [bytes(ALWAYS // 2 + 1)] * 2})
+    pq.write_table(table, path, compression="zstd", use_dictionary=False)
+    assert path.stat().st_size < ALWAYS // LARGEST_RATIO
+    with path.open("rb") as file, pytest.raises(InputError, match="or write smaller pages"):
+        check_pages(file, ["a"])
 
 
 def with_field(sound: bytes, at: int, field: int) -> bytes:
