@@ -5,6 +5,7 @@ run of the same command.
 """
 
 import random
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -12,7 +13,7 @@ import pytest
 from tests.hostile.attack import warm_up, warm_words
 from tests.hostile.attacked_commands import conformance, floatref
 from tests.hostile.hostile_files import write_sound
-from tests.hostile.kill import Work, kill_once, measure_works
+from tests.hostile.kill import Place, Work, kill_once, measure_works
 from tests.hostile.killed_commands import KILLED, NOT_KILLED, write_working
 
 pytestmark = pytest.mark.posix
@@ -39,6 +40,29 @@ def test_every_command_is_killed_or_has_its_reason() -> None:
     killed = {" ".join(key.split()[:2]) for key in KILLED}
     assert killed | set(NOT_KILLED) == commands
     assert not killed & set(NOT_KILLED)
+
+
+@pytest.mark.parametrize(
+    ("found", "exact", "stamped"),
+    [
+        (b'{"s": 1.5}\n', True, True),
+        (b'{"s": 12.25}\n', False, True),
+        (b'{"s": 1.5}', False, False),
+        (b'{"s": 1', False, False),
+        (b"", False, False),
+    ],
+)
+def test_whole_is_what_has_all_bytes_or_all_but_numbers(
+    tmp_path: Path, found: bytes, exact: bool, stamped: bool
+) -> None:
+    place = Place(tmp_path)
+    place.target.write_bytes(b'{"s": 1.5}\n')
+    work = Work("a command", "", 0, place.files(), frozenset(), 1.0)
+    place.target.write_bytes(found)
+    assert work.wrote(place.files()) == exact
+    assert replace(work, stamped=frozenset({"target"})).wrote(place.files()) == stamped
+    assert not work.wrote({})
+    assert work.wrote({}, whole=False)
 
 
 @pytest.mark.slow
