@@ -40,8 +40,8 @@ ENDED = (0, 1, 4)
 """Exit codes of a command that has done its work."""
 NUMBER = re.compile(rb"[0-9A-Fa-f.:+-]+")
 """Numbers, dates and hashes."""
-GROWING = ("floatref batch",)
-"""Write a folder file by file, and go on with it: each of the files is whole."""
+GROWING = ("floatref batch", "conformance run --report")
+"""Write into a folder that may be there, file by file: each of the files is whole."""
 Files = dict[str, tuple[str, str]]
 """Files by their names: the hash of what is in them, and of that without its numbers."""
 
