@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from floatref.files import read_recording as read_recording
     from floatref.files import read_start as read_start
     from floatref.files import real_path as real_path
+    from floatref.files import scratch_folder as scratch_folder
     from floatref.files import write_profile as write_profile
     from floatref.files import write_profile_csv as write_profile_csv
     from floatref.files import write_recording as write_recording
@@ -216,6 +217,7 @@ _PUBLIC = {
     "read_profile": "files",
     "read_recording": "files",
     "resume_stream": "live.stream",
+    "scratch_folder": "files",
     "setup_of": "files.recording_directory",
     "short_interval_roughness": "measures",
     "stage_names": "engine.lookup",

@@ -195,6 +195,19 @@ def test_a_file_that_is_none_is_refused(tmp_path, make):
         read_case(path)
 
 
+@pytest.mark.posix
+@pytest.mark.parametrize("linked", ["cases", "cases/toy-1.json"])
+def test_cases_are_not_read_through_a_link(tmp_path, linked):
+    (tmp_path / "cases").mkdir()
+    kept = document(Case("toy", Scenario()), DeviceClass.NOMINAL, "exec:./x", "too rough")
+    (tmp_path / "cases" / "toy-1.json").write_text(json.dumps(kept))
+    assert len(read_cases(tmp_path)) == 1
+    elsewhere = (tmp_path / linked).rename(tmp_path / "elsewhere")
+    (tmp_path / linked).symlink_to(elsewhere)
+    with pytest.raises(InputError, match=f"{linked}: "):
+        read_cases(tmp_path)
+
+
 def test_a_folder_without_cases_has_none(tmp_path):
     assert read_cases(tmp_path / "new") == ()
     (tmp_path / "cases").mkdir()

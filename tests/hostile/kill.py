@@ -1,15 +1,18 @@
-"""Kill commands that write at random moments, and print counts.
+"""Kill every command that works on something at random moments, and print counts.
 
     python tests/hostile/kill.py --kills 1000
 
 Each kill is a SIGKILL or a SIGTERM in a process that has its own session and folders. Law: what has
 been written is whole or not there, no process goes on, SIGTERM leaves nothing, and what SIGKILL
-leaves is gone after the next run of the same command. Exit code 1 if one of these does not hold.
+leaves is gone after the next run of the same command. Whole is what has the bytes that two runs to
+the end have written; of a file in which these differ, by times or durations, all but its numbers.
+Exit code 1 if the law does not hold.
 """
 
 import argparse
 import os
 import random
+import re
 import shutil
 import signal
 import sys
@@ -17,7 +20,9 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 
 if __name__ == "__main__":
@@ -25,28 +30,43 @@ if __name__ == "__main__":
 
 from tests.hostile.attack import warm_words, words_of
 from tests.hostile.attack_running import TRACES, begin, survivors, wait, warm_up
-from tests.hostile.attacked_commands import WRITTEN
 from tests.hostile.hostile_files import write_sound
+from tests.hostile.killed_commands import KILLED, write_working
 
 INTERRUPTED = 130
 GRACE_S = 60.0
 """Time in s in which the children of a killed process end, on a busy machine too."""
-STAMPS_BYTES = 64
-"""By how much the size of a file may differ: times and durations are in some."""
-SHORTEST = {"conformance run --report": "conformance run --check quiescent --report {x}"}
-APART = ("floatref live", "conformance table", "conformance faults", "conformance certify")
-"""Wait for a peer, or take minutes: their own tests kill them."""
+ENDED = (0, 1, 4)
+"""Exit codes of a command that has done its work."""
+NUMBER = re.compile(rb"[0-9A-Fa-f.:+-]+")
+"""Numbers, dates and hashes."""
+GROWING = ("floatref batch", "conformance run --report")
+"""Write into a folder that may be there, file by file: each of the files is whole."""
+Files = dict[str, tuple[str, str]]
+"""Files by their names: the hash of what is in them, and of that without its numbers."""
 
 
 @dataclass(frozen=True)
 class Work:
-    """A command that writes: its template, its exit code, what it writes by size, its time."""
+    """A command: its template, its exit code, what it writes, and its time.
+
+    The names ``stamped`` are those of files that differ from run to run.
+    """
 
     key: str
     template: str
     code: int
-    sizes: dict[str, int]
+    files: Files
+    stamped: frozenset[str]
     time_s: float
+
+    def wrote(self, found: Files, whole: bool = True) -> bool:
+        """Return whether ``found`` is what it writes, or, unless ``whole``, a part of that."""
+        names = found.keys() == self.files.keys() if whole else found.keys() <= self.files.keys()
+        return names and all(
+            both[name in self.stamped] == self.files[name][name in self.stamped]
+            for name, both in found.items()
+        )
 
 
 @dataclass(frozen=True)
@@ -73,11 +93,11 @@ class Place:
         """Return the process of the command at ``key``."""
         return begin(words_of(key, template, self.target, sound), self.here, self.temporary)
 
-    def sizes(self) -> dict[str, int]:
-        """Return the size of each file among the results, by its name."""
+    def files(self) -> Files:
+        """Return the files among the results, without unfinished ones."""
         root = self.target.parent
-        files = (p for p in root.rglob("*") if p.is_file() and ".floatref-" not in p.as_posix())
-        return {p.relative_to(root).as_posix(): p.stat().st_size for p in files}
+        files = [p for p in root.rglob("*") if p.is_file() and ".floatref-" not in p.as_posix()]
+        return {p.relative_to(root).as_posix(): _hashes(p.read_bytes()) for p in files}
 
     def left(self) -> list[str]:
         """Return the names of unfinished and temporary files."""
@@ -91,21 +111,34 @@ class Place:
         return path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
 
 
+def _hashes(content: bytes) -> tuple[str, str]:
+    shape = NUMBER.sub(b"0", content)
+    return sha256(content).hexdigest(), sha256(shape).hexdigest()
+
+
 def measure_works(folder: Path, sound: dict[str, Path], program: str = "") -> list[Work]:
-    """Return the commands of ``program``, or all, that write something here, run once each."""
-    works = []
-    for key, template in WRITTEN.items():
-        if key.startswith(APART) or not key.startswith(program):
-            continue
-        place, template = Place(folder), SHORTEST.get(key, template)
-        template = template.removeprefix(f"{key.split()[0]} ") if key in SHORTEST else template
-        begin_s = time.monotonic()
+    """Return the commands of ``program``, or all, each of them run to its end twice."""
+    return [
+        _measure(key, template, folder, sound)
+        for key, template in KILLED.items()
+        if key.startswith(program)
+    ]
+
+
+def _measure(key: str, template: str, folder: Path, sound: dict[str, Path]) -> Work:
+    """Return the command at ``key``; RuntimeError if it does no work."""
+    found: list[Files] = []
+    for _ in range(2):
+        place, begin_s = Place(folder), time.monotonic()
         code, hung, _ = wait(place.start(key, template, sound))
-        if place.sizes() and not hung:
-            time_s = time.monotonic() - begin_s
-            works.append(Work(key, template, code, place.sizes(), time_s))
+        time_s = time.monotonic() - begin_s
+        if hung or code not in ENDED:
+            raise RuntimeError(f"{key}: exit code {code}: {place.printed[-300:]}")
+        found.append(place.files())
         shutil.rmtree(place.here, ignore_errors=True)
-    return works
+    first, second = found
+    stamped = frozenset(name for name in second if first.get(name) != second[name])
+    return Work(key, template, code, second, stamped, time_s)
 
 
 def kill_once(work: Work, folder: Path, sound: dict[str, Path], draw: random.Random) -> Killed:
@@ -132,11 +165,11 @@ def _after(
         yield "traceback"
     if code not in (work.code, -sent, INTERRUPTED):
         yield f"exit code {code}"
-    if not _ends(process):
+    if not _ends(process, place):
         yield "alive"
-    found = place.sizes()
-    if found and not _same(found, work.sizes):
-        yield f"half-written {found}"
+    found = place.files()
+    if found and not work.wrote(found, whole=not work.key.startswith(GROWING)):
+        yield f"half-written {sorted(found)}"
     if sent is signal.SIGTERM and code == INTERRUPTED and place.left():
         yield f"left by SIGTERM {place.left()}"
 
@@ -148,28 +181,44 @@ def _again(work: Work, place: Place, sound: dict[str, Path]) -> Iterator[str]:
             shutil.rmtree(path) if path.is_dir() else path.unlink()
     process = place.start(work.key, work.template, sound)
     code, _, _ = wait(process)
-    if code != work.code or not _same(place.sizes(), work.sizes):
-        yield f"the next run: exit code {code}, {place.sizes()}"
-    if place.left() or survivors(process):
+    if code != work.code or not work.wrote(place.files()):
+        yield f"the next run: exit code {code}, {sorted(place.files())}: {place.printed[-300:]}"
+    if not _ends(process, place):
+        yield "alive after the next run"
+    if place.left():
         yield f"left after the next run {place.left()}"
 
 
-def _ends(process: int) -> bool:
-    """Return whether all processes of the session end by themselves."""
+def _ends(process: int, place: Place) -> bool:
+    """Return whether all processes of the command end by themselves."""
     until_s = time.monotonic() + GRACE_S
     while time.monotonic() < until_s:
-        try:
-            os.killpg(process, 0)
-        except (ProcessLookupError, PermissionError):
+        if not _has_group(process) and not _strays(place):
             return True
         time.sleep(0.02)
-    return not survivors(process)
+    for pid in _strays(place):
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+    survivors(process)
+    return False
 
 
-def _same(found: dict[str, int], whole: dict[str, int]) -> bool:
-    return found.keys() == whole.keys() and all(
-        abs(size - whole[name]) <= STAMPS_BYTES for name, size in found.items()
-    )
+def _has_group(process: int) -> bool:
+    try:
+        os.killpg(process, 0)
+    except (ProcessLookupError, PermissionError):
+        return False
+    return True
+
+
+def _strays(place: Place) -> list[int]:
+    """Return processes with the folder of temporary files of ``place``, whatever their session."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):
+            if os.fsencode(place.temporary) in (entry / "environ").read_bytes():
+                found.append(int(entry.name))
+    return found
 
 
 def kill_often(kills: int, seed: int | None, folder: Path) -> list[Killed]:
@@ -177,7 +226,7 @@ def kill_often(kills: int, seed: int | None, folder: Path) -> list[Killed]:
     seed = random.randrange(10**9) if seed is None else seed
     draw = random.Random(seed)
     (folder / "sound").mkdir()
-    sound = write_sound(folder / "sound")
+    sound = write_sound(folder / "sound") | write_working(folder / "sound")
     warm_up(warm_words(folder, sound))
     works = measure_works(folder, sound)
     print(f"seed {seed}, {len(works)} commands: {', '.join(work.key for work in works)}")

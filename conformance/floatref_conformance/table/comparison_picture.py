@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import NamedTemporaryFile
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from floatref.errors import InputError, missing_extra
 from floatref.files.atomic import check_target, replace_file
+from floatref.files.owners import own_name
 from floatref.files.sources import real_path
 from floatref_conformance.table.cells import Cell, ComparisonTable
 from floatref_conformance.table.passes import FITTED
@@ -85,8 +85,9 @@ def check_picture(path: Path) -> None:
     try:
         if path.is_dir():
             raise InputError(f"{path}: is a folder; give the name of a file to write")
-        with NamedTemporaryFile(dir=real_path(path).parent, prefix=".floatref-"):
-            pass
+        beside = real_path(path).parent / own_name()
+        beside.touch(exist_ok=False)
+        beside.unlink()
     except OSError as error:
         raise InputError(
             f"{path}: cannot be written ({error.strerror}); choose another folder or name"

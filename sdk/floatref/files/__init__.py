@@ -10,6 +10,7 @@ from floatref.files.profile_csv import write_profile_csv
 from floatref.files.profile_directory import read_profile, write_profile
 from floatref.files.recording_directory import read_recording, write_recording
 from floatref.files.schema import read_schema
+from floatref.files.scratch import scratch_folder
 from floatref.files.sources import check_file, open_bytes, read_bytes, read_start, real_path
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "read_schema",
     "read_start",
     "real_path",
+    "scratch_folder",
     "write_profile",
     "write_profile_csv",
     "write_recording",

@@ -10,6 +10,7 @@ from floatref_conformance.cli.options import class_of
 from floatref_conformance.cli.run import RECOMMENDED
 from floatref_conformance.devices import builtin
 from floatref_conformance.plugins import load_registry
+from floatref_conformance.proving_ground.cache import cache_folder
 
 
 def report_in(folder):
@@ -162,3 +163,18 @@ def test_a_kept_case_that_is_unreadable_is_exit_2_before_anything_runs(
     assert answer.exit_code == 2
     assert "odd.json" in answer.stderr
     assert devices["good"].seen == []
+
+
+def test_a_program_gets_what_env_names_and_the_place_of_the_truth_is_said(
+    run_toy, devices, monkeypatch
+):
+    monkeypatch.setenv("OF_THE_DEVICE", "its licence")
+    devices["good"].variables = ()
+    answer = run_toy("good", "--env", "OF_THE_DEVICE")
+    assert devices["good"].variables == ("OF_THE_DEVICE",)
+    note = f"Note: the truth is in {cache_folder()}, which a device of this user could read; "
+    assert note in answer.stderr
+
+
+def test_of_a_device_that_is_no_program_nothing_is_said_about_the_truth(run_toy):
+    assert "the truth is in" not in run_toy("good").output

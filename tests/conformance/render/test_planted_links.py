@@ -7,6 +7,8 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.files.atomic import replace_file
+from floatref_conformance.case_files import name_of
+from floatref_conformance.checks.case import Case
 from floatref_conformance.checks.verdict import Outcome
 from floatref_conformance.devices.interface import Description
 from floatref_conformance.judge.events import RunFinished, RunStarted
@@ -43,12 +45,46 @@ def test_a_report_replaces_a_link_in_its_place(
 
 
 @pytest.mark.posix
+def test_a_report_is_not_written_through_a_link_beside_it(
+    tmp_path: Path, valuable: Path, monkeypatch: pytest.MonkeyPatch, check, result
+) -> None:
+    """Even if a device could know the name under which it is written at first."""
+    monkeypatch.setattr(report, "own_name", lambda: "guessed")
+    (tmp_path / "guessed").symlink_to(valuable)
+    with pytest.raises(FileExistsError):
+        JsonReport.into(tmp_path).handle(RunFinished(result(check(Outcome.PASS))))
+    assert valuable.read_text(encoding="utf-8") == "mine"
+
+
+@pytest.mark.posix
 def test_cases_are_not_written_through_a_link(tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "report").mkdir()
     (tmp_path / "report" / "cases").symlink_to(tmp_path / "elsewhere")
     with pytest.raises(InputError, match=r"cases: is a link, .*; remove it"):
         CaseFiles.into(tmp_path / "report")
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+
+
+@pytest.mark.posix
+def test_a_case_replaces_a_link_in_its_place(tmp_path: Path, valuable: Path, check, result) -> None:
+    writer, failed = CaseFiles.into(tmp_path / "report"), check(Outcome.FAIL)
+    name = name_of(Case.of(failed.id, failed.counterexample["parameters"]))
+    (tmp_path / "report" / name).symlink_to(valuable)
+    writer.handle(RunFinished(result(failed)))
+    assert valuable.read_text(encoding="utf-8") == "mine"
+    assert not (tmp_path / "report" / name).is_symlink()
+
+
+@pytest.mark.posix
+def test_a_folder_of_cases_that_became_a_link_is_refused(tmp_path: Path, check, result) -> None:
+    """A device plants it while it is judged."""
+    writer = CaseFiles.into(tmp_path / "report")
+    (tmp_path / "report" / "cases").rmdir()
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "report" / "cases").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(InputError, match="cases: is a link"):
+        writer.handle(RunFinished(result(check(Outcome.FAIL))))
     assert list((tmp_path / "elsewhere").iterdir()) == []
 
 

@@ -154,3 +154,19 @@ def test_a_format_that_cannot_even_recognise_is_reported_and_passed_over(known, 
 def test_what_cannot_be_opened_is_refused_in_a_line(tmp_path, name):
     with pytest.raises(InputError):
         profile_of(tmp_path / name)
+
+
+def end(*_):
+    raise SystemExit("of a vendor")
+
+
+def test_a_format_that_would_end_the_program_is_a_failure_of_its_own(known, tmp_path):
+    loaded = known(Mine(read=end, write=end), Mine(name="other", suffix=".other", recognises=end))
+    path = tmp_path / "a.mine"
+    path.touch()
+    for use in (profile_of, lambda path: write_as(format_of(path), PROFILE, path, overwrite=True)):
+        with pytest.raises(PluginError, match=r"format mine: .*a\.mine: SystemExit: of a vendor"):
+            use(path)
+    write_profile_csv(PROFILE, tmp_path / "a.csv")
+    assert profile_of(tmp_path / "a.csv").start_m == 2.0
+    assert "format other: " in loaded.reports[0]

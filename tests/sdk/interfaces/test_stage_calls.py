@@ -2,6 +2,7 @@
 
 import importlib
 import pkgutil
+import sys
 from inspect import isabstract
 
 import pytest
@@ -64,11 +65,20 @@ def test_a_call_that_cannot_be_made_names_pipeline_and_point(call, message):
 
 @pytest.mark.parametrize(
     ("kind", "message"),
-    [(lambda: 7, "made int, which is not a Stage"), (lambda: 1 / 0, "ZeroDivisionError: division")],
+    [
+        (lambda: 7, "made int, which is not a Stage"),
+        (lambda: 1 / 0, "ZeroDivisionError: division"),
+        (lambda: sys.exit(3), "SystemExit: 3"),
+    ],
 )
 def test_a_class_that_makes_no_stage_is_named(kind, message):
     with pytest.raises(PluginError, match=f"stage Odd: {message}"):
         StageCall("Odd").make({"Odd": kind}, float)
+
+
+def test_an_answer_that_would_end_the_program_names_pipeline_and_point():
+    with pytest.raises(PluginError, match="pipeline mine: temporal_finish: SystemExit: 3"):
+        asked(temporal_finish=lambda context: sys.exit(3))
 
 
 def test_a_function_may_mix_stages_and_calls():

@@ -12,10 +12,9 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO
 
-from floatref import InputError, open_bytes
+from floatref import InputError, open_bytes, scratch_folder
 from floatref_adapters.formats.mdf4.block_links import check_links, read_block
 from floatref_adapters.formats.mdf4.data_blocks import Part, expand, find_parts
 from floatref_adapters.shared.refusals import library
@@ -60,7 +59,7 @@ def open_mdf(source: Path) -> OpenedMdf:
             raise InputError(f"{first_line(error)}; the file is damaged, copy it again") from error
         folder, records = None, source
         if unfinished:
-            folder = Path(stack.enter_context(TemporaryDirectory(prefix="floatref-")))
+            folder = stack.enter_context(scratch_folder("mdf4"))
             records = folder / "records.mf4"
             _copy(stream, records)
             stream = stack.enter_context(records.open("rb+"))

@@ -3,18 +3,23 @@
 Nothing but a few modules of Python is imported here: this is loaded before all else.
 """
 
+import _thread
+import gc
 import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import current_thread, main_thread
-from time import monotonic
+from time import monotonic, sleep
+from types import FrameType
 from typing import Any, NoReturn
 
 INTERRUPTED = 130
 """Exit code of every command that was interrupted, as shells have it: 128 and SIGINT."""
 TIDYING_S = 10.0
 """Time in s after a signal in which others are ignored, so that files can be removed."""
+AGAIN_S = 0.01
+"""Time in s after which a signal comes again that Python would have lost."""
 SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
 )
@@ -38,8 +43,12 @@ class EndHandler:
         """Remember what to do."""
         self._act = act
 
-    def __call__(self, *_: object) -> None:
+    def __call__(self, number: int, frame: FrameType | None) -> None:
         """Act, unless the files of what another handler has ended are being removed."""
+        if _is_collecting(frame):
+            # Python drops what is raised there. A plain thread: a lock may be held here.
+            _thread.start_new_thread(_send_again, (number,))
+            return
         now_s = monotonic()
         if now_s >= EndHandler._deaf_until_s:
             EndHandler._deaf_until_s = now_s + TIDYING_S
@@ -49,6 +58,23 @@ class EndHandler:
     def begin() -> None:
         """Begin another program, for which no signal has come yet."""
         EndHandler._deaf_until_s = 0.0
+
+
+def _is_collecting(frame: FrameType | None) -> bool:
+    """Return whether ``frame`` is in a function that the collector of garbage calls."""
+    codes = {getattr(call, "__code__", None) for call in gc.callbacks}
+    while frame is not None and frame.f_code not in codes:
+        frame = frame.f_back
+    return frame is not None
+
+
+def _send_again(number: int) -> None:
+    sleep(AGAIN_S)
+    if hasattr(signal, "pthread_kill"):
+        # A call of the system in which the main thread waits ends by it.
+        signal.pthread_kill(main_thread().ident or 0, number)
+    else:
+        signal.raise_signal(number)
 
 
 def raise_interrupt(*_: object) -> NoReturn:

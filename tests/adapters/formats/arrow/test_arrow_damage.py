@@ -21,6 +21,8 @@ from floatref_adapters.testing import WRITERS
 from floatref_adapters.testing.whole_reading import make_columns
 
 WriteTable = Callable[[pa.Table, Path], None]
+ZSTD = b"\x28\xb5\x2f\xfd"
+"""What zstd begins with."""
 few = settings(deadline=None, max_examples=120)
 
 
@@ -113,6 +115,20 @@ def test_a_compressed_dictionary_that_swells_is_refused(tmp_path: Path) -> None:
     assert path.stat().st_size < 1 << 16
     with pytest.raises(InputError, match=r"compressed dictionaries of 134217.*; write plain"):
         ArrowIpc().streams(path, {})
+
+
+@pytest.mark.parametrize("size", [1 << 31, 1 << 60])
+def test_a_buffer_that_says_it_unpacks_to_more_than_its_rows_is_refused(
+    tmp_path: Path, size: int
+) -> None:
+    """Eight bytes in front of a buffer are the size that it has when it is unpacked."""
+    path, values = tmp_path / "run.arrow", np.zeros(1000)
+    write_compressed(pa.record_batch({"a": values}), path)
+    sound, told = path.read_bytes(), values.nbytes.to_bytes(8, "little")
+    path.write_bytes(sound.replace(told + ZSTD, size.to_bytes(8, "little") + ZSTD))
+    assert path.read_bytes() != sound
+    with pytest.raises(InputError, match=rf"a buffer of .* bytes that unpacks to {size}, in a"):
+        list(ArrowIpc().streams(path, {}).streams[0].read(["a"]))
 
 
 def test_compressed_batches_are_not_unpacked_for_many_columns_at_once(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from floatref import InputError, Profile, ProfileTrack
 from floatref_adapters.formats.arrow.adapter import Parquet
-from floatref_adapters.formats.arrow.parquet_pages import check_pages
+from floatref_adapters.formats.arrow.parquet_pages import ALWAYS, LARGEST_RATIO, check_pages
 from floatref_adapters.formats.arrow.parquet_profile import ParquetProfile
 from floatref_adapters.formats.arrow.thrift_compact import Compact
 
@@ -72,16 +72,49 @@ def test_a_page_that_declares_two_gigabytes_is_refused(
         list(stream.read(["a"]))
 
 
+def test_a_page_that_unpacks_to_more_than_its_bytes_can_be_is_refused(tmp_path: Path) -> None:
+    """Its header and the footer agree, so that the file is sound."""
+    path = tmp_path / "a.parquet"
+    table = pa.table({"a": [bytes(ALWAYS // 2 + 1)] * 2})
+    pq.write_table(table, path, compression="zstd", use_dictionary=False)
+    assert path.stat().st_size < ALWAYS // LARGEST_RATIO
+    with path.open("rb") as file, pytest.raises(InputError, match="or write smaller pages"):
+        check_pages(file, ["a"])
+
+
+@pytest.mark.parametrize("version", ["1.0", "2.0"])
+@pytest.mark.parametrize("field", [2, 3])
+def test_a_page_that_is_larger_than_its_column_is_refused(
+    tmp_path: Path, version: str, field: int
+) -> None:
+    """All fields behind it are where they were: nothing else is wrong with the file."""
+    path = tmp_path / "a.parquet"
+    sound = write(path, version, "zstd")
+    begin, end = place_of(sound, 4, field)
+    largest = b"\xfe" + b"\xff" * (end - begin - 2) + b"\x7f"
+    path.write_bytes(sound[:begin] + largest + sound[end:])
+    with path.open("rb") as file, pytest.raises(InputError, match="column time_s: a page of"):
+        check_pages(file, ["time_s"])
+
+
 def with_field(sound: bytes, at: int, field: int) -> bytes:
     """Return ``sound`` with `HUGE` over ``field``, 2 or 3, of the header of a page at ``at``."""
+    begin, _ = place_of(sound, at, field)
+    return sound[:begin] + HUGE + sound[begin + len(HUGE) :]
+
+
+def place_of(sound: bytes, at: int, field: int) -> tuple[int, int]:
+    """Return where ``field``, 2 or 3, of the header of a page at ``at`` begins and ends."""
     reader = Compact(sound[at:])
     # The kind of the page comes first, in a byte of its head and one of its value.
     reader.at = 2
     for _ in range(field - 2):
         reader.at += 1
         reader.integer()
-    begin = at + reader.at + 1
-    return sound[:begin] + HUGE + sound[begin + len(HUGE) :]
+    reader.at += 1
+    begin = at + reader.at
+    reader.integer()
+    return begin, at + reader.at
 
 
 def test_a_damaged_profile_is_refused(tmp_path: Path) -> None:

@@ -1,8 +1,11 @@
 """MDF 4 that is damaged or unfinished: read as far as it goes, or refused in one line."""
 
 import contextlib
+import os
 import random
+import signal
 import struct
+import subprocess
 import sys
 import tempfile
 import tracemalloc
@@ -30,6 +33,13 @@ from floatref_adapters.testing.mdf4 import (
 from floatref_adapters.testing.whole_reading import read_whole, refusal
 
 NS = (1e-9, 0.0)
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from floatref_adapters.formats.mdf4.adapter import Mdf4
+opened = Mdf4().streams(Path(sys.argv[1]), {})
+os.kill(os.getpid(), signal.SIGKILL)
+"""
 read = partial(read_whole, Mdf4())
 refused = partial(refusal, Mdf4())
 
@@ -117,6 +127,24 @@ def test_nothing_of_an_unfinished_recording_is_left(
         assert not list(temporary.iterdir())
     # Some of them behind the copy, which asammdf stumbles over.
     assert any("asammdf cannot read it" in text for text in refusals)
+
+
+@pytest.mark.slow
+@pytest.mark.posix
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="nothing tells that a process ended")
+def test_what_a_killed_process_left_of_it_the_next_one_removes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, temporary = tmp_path / "a.mf4", tmp_path / "temporary"
+    temporary.mkdir()
+    write_unfinished(path)
+    environment = {**os.environ, "TMPDIR": str(temporary)}
+    killed = subprocess.run([sys.executable, "-c", KILLED, str(path)], env=environment)
+    assert killed.returncode == -signal.SIGKILL
+    assert len(list(temporary.iterdir())) == 1
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    read(path)
+    assert not list(temporary.iterdir())
 
 
 def test_the_copy_of_an_unfinished_recording_needs_room(

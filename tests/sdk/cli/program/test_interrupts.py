@@ -1,11 +1,15 @@
 """Signals that end a command: one line, exit code 130 and no file, wherever they come."""
 
+import gc
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
+
+from floatref.cli.program.interrupts import Interrupt, raising_interrupt
 
 pytestmark = pytest.mark.posix
 
@@ -105,3 +109,24 @@ def test_a_command_whose_loading_is_interrupted_says_what_is_missing(tmp_path: P
     words = [sys.executable, "-c", text]
     done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "Interrupted: no table\n")
+
+
+def test_a_signal_in_a_callback_of_the_collector_is_not_lost() -> None:
+    """Hypothesis has one, in which every tenth signal came while the judge searched."""
+
+    def collect(phase: str, _: object) -> None:
+        if phase == "stop":
+            callbacks.append(phase)
+            signal.raise_signal(signal.SIGTERM)
+            gc.callbacks.remove(collect)
+
+    def work() -> None:
+        with raising_interrupt():
+            gc.callbacks.append(collect)
+            gc.collect()
+            time.sleep(60.0)
+
+    callbacks: list[str] = []
+    with pytest.raises(Interrupt):
+        work()
+    assert callbacks == ["stop"]
