@@ -4,12 +4,13 @@ import json
 from dataclasses import replace
 from errno import EACCES
 from io import StringIO
+from pathlib import Path
 
 import pytest
 from rich.console import Console
 
 from floatref.errors import InputError
-from floatref_conformance.table import Scores, TableSettings, comparison_picture
+from floatref_conformance.table import Scores, TableSettings
 from floatref_conformance.table.comparison_picture import check_picture, draw_comparison_maps
 from floatref_conformance.table.comparison_text import print_comparison
 from floatref_conformance.table.making import PassProgress
@@ -162,10 +163,10 @@ def test_a_folder_that_takes_no_file_is_noticed_early(tmp_path, monkeypatch):
     check_picture(tmp_path / "table.png")
     assert list(tmp_path.iterdir()) == []
 
-    def closed(**_):
+    def closed(*_, **__):
         raise PermissionError(EACCES, "Permission denied")
 
-    monkeypatch.setattr(comparison_picture, "NamedTemporaryFile", closed)
+    monkeypatch.setattr(Path, "touch", closed)
     with pytest.raises(InputError, match=r"table\.png: cannot be written \(Permission denied\)"):
         check_picture(tmp_path / "table.png")
 
