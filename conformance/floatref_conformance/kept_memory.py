@@ -2,8 +2,8 @@
 
 A recording of minutes is arrays of tens of megabytes. The allocator of glibc takes each from the
 system and gives it back after use, and the system clears it page by page before it is given
-again: of a simulated drive that is a third of the processor time. Other allocators stay as they
-are.
+again: of a simulated drive that is a third of the processor time. Other allocators, and a glibc
+that refuses so large a threshold, stay as they are.
 """
 
 import ctypes

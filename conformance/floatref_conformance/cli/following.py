@@ -13,7 +13,6 @@ from floatref_conformance.errors import SuiteError
 from floatref_conformance.judge.events import Event, Renderer, RunFinished
 from floatref_conformance.judge.in_processes import run_in_processes
 from floatref_conformance.judge.runner import Plan
-from floatref_conformance.kept_memory import keep_memory
 from floatref_conformance.render.terminal import TerminalRenderer
 from floatref_conformance.resemblance.naming import was_interrupted
 
@@ -31,7 +30,6 @@ def follow(
     of it, the command ends here with its exit code. The run goes on when nobody reads what it
     shows.
     """
-    keep_memory()
     finished: list[RunFinished] = []
 
     def emit(event: Event) -> None:

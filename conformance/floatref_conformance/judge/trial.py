@@ -29,6 +29,13 @@ StoredResults = Callable[[Check, Case], CaseResult]
 """Returns the result that a case had in an earlier run."""
 MOST_HANGS = 3
 """Number of hangs after which a device gets no more cases, so that the run ends."""
+SEARCHED = "-search-"
+"""In the name of a case that a search has drawn, between check and number."""
+
+
+def is_searched(id_: str, name: str) -> bool:
+    """Return whether a search of the check ``id_`` has drawn the case called ``name``."""
+    return name.startswith(f"{id_}{SEARCHED}")
 
 
 @dataclass
@@ -96,7 +103,7 @@ class Trial:
         }
 
     def _judge_found(self, check: Check, case: Case) -> float:
-        named = replace(case, name=f"{check.id}-search-{len(self._judged) + 1}")
+        named = replace(case, name=f"{check.id}{SEARCHED}{len(self._judged) + 1}")
         return self._try(check, named).ratio(self.device_class)
 
     def _try(self, check: Check, case: Case) -> CaseResult:

@@ -58,7 +58,7 @@ def _compare_nees(
         yield f"NEES of {_count_points(stored)}, here it is of {_count_points(again)}"
         return
     for before, now in zip(stored, again, strict=True):
-        # As large as stated is 1, the least by which errors of an NEES are told.
+        # 1 means errors as large as stated: it is the smallest scale of the comparison.
         if not agrees(before.mean, now.mean, 1.0, share):
             what = f"NEES, track {before.track}: {before.mean:.7g}"
             yield f"{what}, here it is {now.mean:.7g}"

@@ -22,7 +22,9 @@ from floatref_conformance.devices.recorded import PROFILE, RecordedDevice, cases
 
 SDK, REFERENCE, SUITE = "floatref", "floatref_reference", "floatref_conformance"
 DRAWER = "hypothesis"
-"""What draws the cases of an edition and a seed: another version may draw others."""
+"""What draws the cases of a search: another version may draw others from the same seed."""
+MISSING = "missing"
+"""The version of a package that is not installed."""
 PACKAGES = ("numpy", "scipy", "numba", DRAWER)
 FURTHER = "further"
 COMPILED = frozenset({".pyc", ".nbi", ".nbc"})
@@ -91,21 +93,21 @@ def describe_environment() -> dict[str, str]:
 
 
 def describe_other_drawer(environment: Mapping[str, Any]) -> str:
-    """Return with what else than here the cases of an archive were drawn; empty if with the same.
+    """Return with which other version a search drew the cases of an archive; empty if with ours.
 
-    ``environment`` is what the archive states of its own.
+    ``environment`` is what the archive states of its own. Every archive of a search states one.
     """
     stated, here = environment.get(DRAWER), _version(DRAWER)
-    if stated == here:
+    if stated in (None, MISSING, here):
         return ""
-    return f"{DRAWER} {stated or 'of no stated version'}, here it is {here}"
+    return f"{DRAWER} {stated}, here it is {here}"
 
 
 def _version(name: str) -> str:
     try:
         return version(name)
     except PackageNotFoundError:
-        return "missing"
+        return MISSING
 
 
 def _folder_of(name: str) -> Path:

@@ -21,6 +21,7 @@ from floatref_conformance.editions.edition import Edition, find_edition
 from floatref_conformance.errors import DeviceError, SuiteError
 from floatref_conformance.judge.events import CaseFinished, Event
 from floatref_conformance.judge.runner import UNDESCRIBED, Plan, run
+from floatref_conformance.judge.trial import is_searched
 from floatref_conformance.registry import Registry
 from floatref_conformance.render.report import as_json
 from floatref_conformance.submission.document import Submission, write_json
@@ -32,7 +33,17 @@ Results = Mapping[str, Sequence[CaseResult]]
 
 
 class Departed(Exception):
-    """The repetition draws a case that is not the next one in the archive; says which."""
+    """The repetition draws a case that is not the next one in the archive; says which.
+
+    Attributes:
+        searched: whether a search drew the case, whose draws are those of a library; of all others
+            edition and seed decide alone.
+    """
+
+    def __init__(self, what: str, searched: bool) -> None:
+        """Say what departs."""
+        super().__init__(what)
+        self.searched = searched
 
 
 @dataclass(frozen=True)
@@ -78,22 +89,24 @@ class Tape:
         if case.name.endswith(", simplified"):
             # Numbers that make no drive raise InputError here, as they did in the run.
             score_again(check, case, (), self.description, self.edition)
-        raise Departed(_describe(case, stored))
+        raise Departed(_describe(case, stored), is_searched(check.id, case.name))
 
     def handle(self, event: Event) -> None:
         """Go on by a case; Departed if it is not the next one."""
         if isinstance(event, CaseFinished):
             stored = self._next(event.id)
             if stored is None or stored.name != event.result.name:
-                raise Departed(_describe(Case.of(event.id, {}, event.result.name), stored))
+                drawn = Case.of(event.id, {}, event.result.name)
+                raise Departed(_describe(drawn, stored), is_searched(event.id, drawn.name))
             self.reached[event.id] = self.reached.get(event.id, 0) + 1
 
     def check_end(self) -> None:
         """Raise Departed if there are results that the repetition did not draw."""
         for id_, results in self.results.items():
-            more = len(results) - self.reached.get(id_, 0)
-            if more:
-                raise Departed(f"{id_}: {more} results of cases that are not drawn here")
+            left = results[self.reached.get(id_, 0) :]
+            if left:
+                what = f"{id_}: {len(left)} results of cases that are not drawn here"
+                raise Departed(what, all(is_searched(id_, result.name) for result in left))
 
     def _next(self, id_: str) -> CaseResult | None:
         results, reached = self.results.get(id_, ()), self.reached.get(id_, 0)

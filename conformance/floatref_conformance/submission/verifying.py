@@ -126,6 +126,8 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
         again = make_report(repetition.submission, results, repetition.registry)
     except Departed as error:
         _explain_departure(error, repetition.submission, verification)
+        # What a report says of itself holds whatever the cases are.
+        _compare_verdict(report, report, verification)
         return None
     except SuiteError as error:
         # Figures that no run has can stop the judge where those of a run cannot.
@@ -144,18 +146,19 @@ def _retrace(repetition: Repetition, report: dict[str, Any]) -> dict[str, Any] |
 
 
 def _explain_departure(error: Departed, submission: Submission, verification: Verification) -> None:
-    """Contradict an archive of other cases, if what drew them is what draws them here.
+    """Contradict an archive of other cases, unless another library may have drawn them.
 
-    Another version may draw others of the same seed, so that an honest archive would be accused;
-    and whoever states another version than the true one is found as soon as that is at hand.
+    Only a search draws by a library, whose versions may draw others from the same seed: so an
+    honest archive would be accused. Whoever states another version than the true one is found where
+    that is installed, and has nothing confirmed before.
     """
     other = describe_other_drawer(submission.environment)
-    if not other:
+    if not (other and error.searched and submission.searching):
         verification.contradict(RESULTS, str(error))
         return
     verification.undecided = (
-        f"the cases were drawn with {other}, which draws others from this seed: verify again where "
-        "the version of the archive is installed, or ask for an archive made with yours"
+        f"the archive states {other}, and a search draws other cases here: verify again where "
+        "that version is installed, or ask for an archive made with yours"
     )
 
 

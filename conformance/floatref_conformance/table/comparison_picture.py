@@ -86,8 +86,10 @@ def check_picture(path: Path) -> None:
         if path.is_dir():
             raise InputError(f"{path}: is a folder; give the name of a file to write")
         beside = real_path(path).parent / own_name()
-        beside.touch(exist_ok=False)
-        beside.unlink()
+        try:
+            beside.touch(exist_ok=False)
+        finally:
+            beside.unlink(missing_ok=True)
     except OSError as error:
         raise InputError(
             f"{path}: cannot be written ({error.strerror}); choose another folder or name"

@@ -22,7 +22,7 @@ def gnss_channels(
 ) -> tuple[Channel, ...]:
     """Return all GNSS channels on the receiver's own time stamps.
 
-    The antenna is as far aside as the vehicle's line is below it; that the body points along a
+    The antenna is as far to the side as the vehicle's line below it; that the body points along a
     wandering line, by milliradians, is left out.
 
     Args:

@@ -162,7 +162,7 @@ def _write(
 def _keep(states: FloatArray, row: int, vector: FloatArray) -> None:
     """Write ``vector`` to a row of ``states``, one by one.
 
-    For an assignment of arrays numba would compile the text of its error as well: 36 functions.
+    For an assignment of arrays numba would compile the text of its error as well.
     """
     for i in range(STATES + INPUTS):
         states[row, i] = vector[i]

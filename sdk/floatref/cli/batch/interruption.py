@@ -5,11 +5,11 @@ import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from threading import Event, Thread, current_thread, main_thread
-from typing import NoReturn
+from types import FrameType
 
 import click
 
-from floatref.cli.program.interrupts import INTERRUPTED, Interrupt
+from floatref.cli.program.interrupts import INTERRUPTED, Interrupt, comes_again
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 ENDING_S = 180.0
@@ -23,8 +23,8 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
 
     After the first one both are ignored, so that workers can be stopped. Where the work goes on
     for ``ending_s`` seconds nevertheless, the process ends with a line and exit code 130: its
-    workers end with it, and the next command removes their files. Python drops an exception that a
-    signal raises inside a finalizer. A signal that was ignored before stays ignored.
+    workers end with it, and the next command removes their files. A signal that was ignored before
+    stays ignored.
     """
     before = {number: signal.getsignal(number) for number in SIGNALS}
     caught = [number for number in SIGNALS if before[number] != signal.SIG_IGN]
@@ -32,9 +32,11 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
         caught = []
     over, errors = Event(), os.dup(2)
 
-    def stop(*_: object) -> NoReturn:
-        for number in caught:
-            signal.signal(number, signal.SIG_IGN)
+    def stop(number: int, frame: FrameType | None) -> None:
+        if comes_again(number, frame):
+            return
+        for each in caught:
+            signal.signal(each, signal.SIG_IGN)
         Thread(target=_end_late, args=(over, ending_s, errors), daemon=True).start()
         raise Interrupt
 

@@ -8,7 +8,7 @@ import gc
 import signal
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from threading import current_thread, main_thread
 from time import monotonic, sleep
 from types import FrameType
@@ -45,9 +45,7 @@ class EndHandler:
 
     def __call__(self, number: int, frame: FrameType | None) -> None:
         """Act, unless the files of what another handler has ended are being removed."""
-        if _is_collecting(frame):
-            # Python drops what is raised there. A plain thread: a lock may be held here.
-            _thread.start_new_thread(_send_again, (number,))
+        if comes_again(number, frame):
             return
         now_s = monotonic()
         if now_s >= EndHandler._deaf_until_s:
@@ -60,12 +58,20 @@ class EndHandler:
         EndHandler._deaf_until_s = 0.0
 
 
-def _is_collecting(frame: FrameType | None) -> bool:
-    """Return whether ``frame`` is in a function that the collector of garbage calls."""
+def comes_again(number: int, frame: FrameType | None) -> bool:
+    """Return whether signal ``number`` came while garbage is collected; then it comes again.
+
+    Python drops what a handler raises in a callback of the collector or in a finalizer.
+    """
     codes = {getattr(call, "__code__", None) for call in gc.callbacks}
-    while frame is not None and frame.f_code not in codes:
+    while frame is not None and frame.f_code not in codes and frame.f_code.co_name != "__del__":
         frame = frame.f_back
-    return frame is not None
+    if frame is None:
+        return False
+    # A plain thread: a lock may be held here. At the end of Python there are no more.
+    with suppress(RuntimeError):
+        _thread.start_new_thread(_send_again, (number,))
+    return True
 
 
 def _send_again(number: int) -> None:

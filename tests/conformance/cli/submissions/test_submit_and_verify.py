@@ -59,15 +59,17 @@ def test_the_same_input_gives_the_same_archive(submit, tmp_path):
 def test_cases_of_another_hypothesis_end_with_2_and_name_it(call, submit, tmp_path):
     submit("good")
     members = dict(read_archive(tmp_path / "a.zip"))
-    for name in ("submission.json", "report.json"):
-        found = json.loads(members[name]) | {"seed": 1}
-        found.get("environment", {})["hypothesis"] = "1.2.3"
-        members[name] = json.dumps(found).encode()
+    stated, results = (json.loads(members[n]) for n in ("submission.json", "results/toy.json"))
+    stated["environment"]["hypothesis"] = "1.2.3"
+    searched = next(result for result in results if "-search-" in result["name"])
+    searched["parameters"]["scenario"]["speed_kmh"] = 33.25
+    members |= {"submission.json": json.dumps(stated).encode()}
+    members |= {"results/toy.json": json.dumps(results).encode()}
     members.pop(SUMS)
     write_archive(members | {SUMS: list_sums(members)}, tmp_path / "a.zip", overwrite=True)
     verified = call("verify", "a.zip")
     assert verified.exit_code == 2, verified.output
-    assert "Undecided: the cases were drawn with hypothesis 1.2.3" in verified.stdout
+    assert "Undecided: the archive states hypothesis 1.2.3" in verified.stdout
     assert verified.stdout.endswith("not confirmed: it was not repeated\n")
     found = json.loads(call("verify", "a.zip", "--json").stdout)
     assert not found["confirmed"]

@@ -5,10 +5,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
+import click
 import pytest
 
+from floatref.cli.batch.interruption import interruptible
 from floatref.cli.program.interrupts import Interrupt, raising_interrupt
 
 pytestmark = pytest.mark.posix
@@ -111,22 +115,51 @@ def test_a_command_whose_loading_is_interrupted_says_what_is_missing(tmp_path: P
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "Interrupted: no table\n")
 
 
-def test_a_signal_in_a_callback_of_the_collector_is_not_lost() -> None:
-    """Hypothesis has one, in which every tenth signal came while the judge searched."""
+class Lasting:
+    """An object whose finalizer takes a while, and gets a signal meanwhile."""
 
-    def collect(phase: str, _: object) -> None:
-        if phase == "stop":
-            callbacks.append(phase)
+    def __del__(self) -> None:
+        signal.raise_signal(signal.SIGTERM)
+        time.sleep(0.1)
+
+
+def _in_a_callback() -> None:
+    came = []
+
+    def collect(*_: object) -> None:
+        if not came:
+            came.append(True)
             signal.raise_signal(signal.SIGTERM)
-            gc.callbacks.remove(collect)
+            time.sleep(0.1)
 
-    def work() -> None:
-        with raising_interrupt():
-            gc.callbacks.append(collect)
-            gc.collect()
-            time.sleep(60.0)
+    gc.callbacks.append(collect)
+    try:
+        gc.collect()
+        time.sleep(60.0)
+    finally:
+        gc.callbacks.remove(collect)
 
-    callbacks: list[str] = []
-    with pytest.raises(Interrupt):
+
+def _in_a_finalizer() -> None:
+    Lasting()
+    time.sleep(60.0)
+
+
+@contextmanager
+def _batch() -> Iterator[None]:
+    """End as `floatref batch` does, whose own handler ends the command."""
+    with pytest.raises(click.exceptions.Exit), interruptible(lambda: "Interrupted"):
+        yield
+    raise Interrupt
+
+
+@pytest.mark.parametrize("work", [_in_a_callback, _in_a_finalizer])
+@pytest.mark.parametrize("handled", [raising_interrupt, _batch])
+def test_a_signal_while_garbage_is_collected_is_not_lost(
+    work: Callable[[], None], handled: Callable[[], AbstractContextManager[None]]
+) -> None:
+    """Hypothesis has a callback of the collector, in which every tenth signal came."""
+    begun = time.monotonic()
+    with pytest.raises(Interrupt), handled():
         work()
-    assert callbacks == ["stop"]
+    assert time.monotonic() - begun < 50.0
