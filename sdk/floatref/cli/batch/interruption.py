@@ -2,14 +2,14 @@
 
 import os
 import signal
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, nullcontext, suppress
 from threading import Event, Thread, current_thread, main_thread
-from types import FrameType
+from typing import Any, NoReturn
 
 import click
 
-from floatref.cli.program.interrupts import INTERRUPTED, Interrupt, comes_again
+from floatref.cli.program.interrupts import INTERRUPTED, Interrupt, raised_again, send_again
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 ENDING_S = 180.0
@@ -23,27 +23,30 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
 
     After the first one both are ignored, so that workers can be stopped. Where the work goes on
     for ``ending_s`` seconds nevertheless, the process ends with a line and exit code 130: its
-    workers end with it, and the next command removes their files. A signal that was ignored before
-    stays ignored.
+    workers end with it, and the next command removes their files. A signal that was ignored
+    before stays ignored.
     """
     before = {number: signal.getsignal(number) for number in SIGNALS}
     caught = [number for number in SIGNALS if before[number] != signal.SIG_IGN]
     if current_thread() is not main_thread():
         caught = []
-    over, errors = Event(), os.dup(2)
+    over, errors, came = Event(), os.dup(2), list[int]()
 
-    def stop(number: int, frame: FrameType | None) -> None:
-        if comes_again(number, frame):
-            return
-        for each in caught:
-            signal.signal(each, signal.SIG_IGN)
-        Thread(target=_end_late, args=(over, ending_s, errors), daemon=True).start()
+    def stop(number: int, _: object) -> NoReturn:
+        _handle(caught, signal.SIG_IGN)
+        if not came:
+            Thread(target=_end_late, args=(over, ending_s, errors), daemon=True).start()
+        came.append(number)
         raise Interrupt
 
+    def stop_again() -> None:
+        _handle(caught, stop)
+        send_again(came[-1])
+
     try:
-        for number in caught:
-            signal.signal(number, stop)
-        yield
+        _handle(caught, stop)
+        with raised_again(stop_again) if caught else nullcontext():
+            yield
     except KeyboardInterrupt as error:
         click.echo(line(), err=True)
         raise click.exceptions.Exit(INTERRUPTED) from error
@@ -52,6 +55,11 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
         for number in caught:
             signal.signal(number, before[number])
         os.close(errors)
+
+
+def _handle(numbers: Iterable[int], handler: Any) -> None:
+    for number in numbers:
+        signal.signal(number, handler)
 
 
 def _end_late(over: Event, ending_s: float, errors: int) -> None:

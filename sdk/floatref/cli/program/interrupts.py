@@ -4,14 +4,12 @@ Nothing but a few modules of Python is imported here: this is loaded before all 
 """
 
 import _thread
-import gc
 import signal
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from threading import current_thread, main_thread
 from time import monotonic, sleep
-from types import FrameType
 from typing import Any, NoReturn
 
 INTERRUPTED = 130
@@ -41,16 +39,20 @@ class EndHandler:
 
     def __init__(self, act: Callable[[], NoReturn]) -> None:
         """Remember what to do."""
-        self._act = act
+        self._act, self._number = act, int(signal.SIGINT)
 
-    def __call__(self, number: int, frame: FrameType | None) -> None:
+    def __call__(self, number: int, _: object = None) -> None:
         """Act, unless the files of what another handler has ended are being removed."""
-        if comes_again(number, frame):
-            return
         now_s = monotonic()
         if now_s >= EndHandler._deaf_until_s:
             EndHandler._deaf_until_s = now_s + TIDYING_S
+            self._number = number
             self._act()
+
+    def act_again(self) -> None:
+        """Act in a moment: what was raised has been dropped."""
+        EndHandler.begin()
+        send_again(self._number)
 
     @staticmethod
     def begin() -> None:
@@ -58,23 +60,37 @@ class EndHandler:
         EndHandler._deaf_until_s = 0.0
 
 
-def comes_again(number: int, frame: FrameType | None) -> bool:
-    """Return whether signal ``number`` came while garbage is collected; then it comes again.
+@contextmanager
+def raised_again(again: Callable[[], None]) -> Iterator[None]:
+    """Call ``again`` where Python drops what a signal has raised.
 
-    Python drops what a handler raises in a callback of the collector or in a finalizer.
+    It drops what is raised in a callback of the garbage collector or of a weak reference, and in a
+    finalizer; hypothesis, for one, has such a callback.
     """
-    codes = {getattr(call, "__code__", None) for call in gc.callbacks}
-    while frame is not None and frame.f_code not in codes and frame.f_code.co_name != "__del__":
-        frame = frame.f_back
-    if frame is None:
-        return False
+    before = sys.unraisablehook
+
+    def hook(dropped: "sys.UnraisableHookArgs") -> None:
+        if isinstance(dropped.exc_value, (Interrupt, SystemExit)):
+            again()
+        else:
+            before(dropped)
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        if sys.unraisablehook is hook:
+            sys.unraisablehook = before
+
+
+def send_again(number: int) -> None:
+    """Send the signal ``number`` to this program in a moment."""
     # A plain thread: a lock may be held here. At the end of Python there are no more.
     with suppress(RuntimeError):
-        _thread.start_new_thread(_send_again, (number,))
-    return True
+        _thread.start_new_thread(_send, (number,))
 
 
-def _send_again(number: int) -> None:
+def _send(number: int) -> None:
     sleep(AGAIN_S)
     if hasattr(signal, "pthread_kill"):
         # A call of the system in which the main thread waits ends by it.
@@ -123,7 +139,8 @@ def _handled_by(handler: EndHandler) -> Iterator[None]:
     try:
         for number in before:
             signal.signal(number, handler)
-        yield
+        with raised_again(handler.act_again) if before else nullcontext():
+            yield
     finally:
         for number, old in before.items():
             signal.signal(number, old)

@@ -10,28 +10,24 @@ from floatref.cli.batch.interruption import LATE
 pytestmark = pytest.mark.posix
 
 LOST = """
-import os, signal, sys, time, weakref
+import os, signal, sys, time
 from floatref.cli.batch.interruption import interruptible
 
-class Referred:
-    pass
-
-def end(_):
-    os.kill(os.getpid(), signal.SIGINT)
-    [0 for _ in range(10**6)]
+class Finalizer:
+    def __del__(self):
+        os.kill(os.getpid(), signal.SIGINT)
+        [0 for _ in range(10**6)]
 
 with interruptible(lambda: "never", ending_s=0.5):
     sys.unraisablehook = lambda error: print(type(error.exc_value).__name__, flush=True)
-    referred = Referred()
-    reference = weakref.ref(referred, end)
-    del referred
+    Finalizer()
     while True:
         time.sleep(0.05)
 """
 
 
 def test_an_exception_that_python_drops_ends_the_work_later() -> None:
-    """Python drops what a signal raises for a weak reference; after that, no signal is heard."""
+    """Python drops what a signal raises in a finalizer; after that, no signal is heard."""
     done = subprocess.run(
         [sys.executable, "-c", LOST], capture_output=True, text=True, timeout=600, check=False
     )

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+import weakref
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
@@ -115,6 +116,10 @@ def test_a_command_whose_loading_is_interrupted_says_what_is_missing(tmp_path: P
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "Interrupted: no table\n")
 
 
+class Referred:
+    """An object that a weak reference waits for."""
+
+
 class Lasting:
     """An object whose finalizer takes a while, and gets a signal meanwhile."""
 
@@ -145,6 +150,14 @@ def _in_a_finalizer() -> None:
     time.sleep(60.0)
 
 
+def _for_a_weak_reference() -> None:
+    referred = Referred()
+    reference = weakref.ref(referred, lambda _: (signal.raise_signal(signal.SIGTERM), None)[1])
+    del referred
+    assert reference() is None
+    time.sleep(60.0)
+
+
 @contextmanager
 def _batch() -> Iterator[None]:
     """End as `floatref batch` does, whose own handler ends the command."""
@@ -153,12 +166,12 @@ def _batch() -> Iterator[None]:
     raise Interrupt
 
 
-@pytest.mark.parametrize("work", [_in_a_callback, _in_a_finalizer])
+@pytest.mark.parametrize("work", [_in_a_callback, _in_a_finalizer, _for_a_weak_reference])
 @pytest.mark.parametrize("handled", [raising_interrupt, _batch])
-def test_a_signal_while_garbage_is_collected_is_not_lost(
+def test_a_signal_whose_exception_python_drops_comes_again(
     work: Callable[[], None], handled: Callable[[], AbstractContextManager[None]]
 ) -> None:
-    """Hypothesis has a callback of the collector, in which every tenth signal came."""
+    """Hypothesis has a callback of the collector, in which every tenth signal was lost."""
     begun = time.monotonic()
     with pytest.raises(Interrupt), handled():
         work()
