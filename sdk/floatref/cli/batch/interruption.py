@@ -39,9 +39,11 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
         came.append(number)
         raise Interrupt
 
-    def stop_again() -> None:
-        _handle(caught, stop)
-        send_again(came[-1])
+    def stop_again() -> bool:
+        if came:
+            _handle(caught, stop)
+            send_again(came[-1])
+        return bool(came)
 
     try:
         _handle(caught, stop)

@@ -32,6 +32,10 @@ class Interrupt(KeyboardInterrupt):
     """
 
 
+class Ending(SystemExit):
+    """The end of the program by a signal."""
+
+
 class EndHandler:
     """Calls ``act`` for a signal; what comes within `TIDYING_S` after it is ignored."""
 
@@ -39,7 +43,7 @@ class EndHandler:
 
     def __init__(self, act: Callable[[], NoReturn]) -> None:
         """Remember what to do."""
-        self._act, self._number = act, int(signal.SIGINT)
+        self._act, self._number = act, 0
 
     def __call__(self, number: int, _: object = None) -> None:
         """Act, unless the files of what another handler has ended are being removed."""
@@ -49,10 +53,12 @@ class EndHandler:
             self._number = number
             self._act()
 
-    def act_again(self) -> None:
-        """Act in a moment: what was raised has been dropped."""
-        EndHandler.begin()
-        send_again(self._number)
+    def act_again(self) -> bool:
+        """Act in a moment, since what was raised has been dropped; return whether it did raise."""
+        if self._number:
+            EndHandler.begin()
+            send_again(self._number)
+        return self._number != 0
 
     @staticmethod
     def begin() -> None:
@@ -61,18 +67,17 @@ class EndHandler:
 
 
 @contextmanager
-def raised_again(again: Callable[[], None]) -> Iterator[None]:
+def raised_again(again: Callable[[], bool]) -> Iterator[None]:
     """Call ``again`` where Python drops what a signal has raised.
 
     It drops what is raised in a callback of the garbage collector or of a weak reference, and in a
-    finalizer; hypothesis, for one, has such a callback.
+    finalizer; hypothesis, for one, has such a callback. Where ``again`` returns that another
+    handler has raised it, and for all else that is dropped, the hook of before is called.
     """
     before = sys.unraisablehook
 
     def hook(dropped: "sys.UnraisableHookArgs") -> None:
-        if isinstance(dropped.exc_value, (Interrupt, SystemExit)):
-            again()
-        else:
+        if not (isinstance(dropped.exc_value, (Interrupt, Ending)) and again()):
             before(dropped)
 
     sys.unraisablehook = hook
@@ -121,7 +126,7 @@ def ending_program(line: str) -> Iterator[None]:
 
     def end() -> NoReturn:
         sys.stderr.write(f"{line}\n")
-        sys.exit(INTERRUPTED)
+        raise Ending(INTERRUPTED)
 
     with _handled_by(EndHandler(end)):
         yield

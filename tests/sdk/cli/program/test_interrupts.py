@@ -176,3 +176,44 @@ def test_a_signal_whose_exception_python_drops_comes_again(
     with pytest.raises(Interrupt), handled():
         work()
     assert time.monotonic() - begun < 50.0
+
+
+class Leaving:
+    """An object whose finalizer ends the program, which Python drops."""
+
+    def __del__(self) -> None:
+        raise SystemExit(3)
+
+
+@pytest.mark.parametrize("handled", [raising_interrupt, lambda: interruptible(lambda: "never")])
+def test_what_others_raise_and_python_drops_sends_no_signal(
+    handled: Callable[[], AbstractContextManager[None]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = list[type[BaseException]]()
+    monkeypatch.setattr(sys, "unraisablehook", lambda dropped: told.append(dropped.exc_type))
+    with handled():
+        Leaving()
+        time.sleep(0.1)
+    assert told == [SystemExit]
+
+
+class Closing:
+    """An object whose finalizer runs while the terminal is closed."""
+
+    def __del__(self) -> None:
+        signal.raise_signal(signal.SIGHUP)
+        time.sleep(0.1)
+
+
+def _work_in_batch(heard: list[str]) -> None:
+    with raising_interrupt(), interruptible(lambda: heard.append("once") or "Interrupted"):
+        Closing()
+        time.sleep(60.0)
+
+
+def test_a_signal_of_the_outer_handler_comes_again_in_batch() -> None:
+    """That a terminal is closed is no signal of batch's own."""
+    heard = list[str]()
+    with pytest.raises(click.exceptions.Exit):
+        _work_in_batch(heard)
+    assert heard == ["once"]
