@@ -33,7 +33,14 @@ def tidy(program: str) -> list[str]:
     files = sorted(map(str, (LIBRARY / "src").glob("*.c")))
     command = [program, "--quiet", f"-checks={TIDY}", *files, "--", "-std=c99", f"-I{LIBRARY}"]
     found = subprocess.run(command, capture_output=True, text=True)
-    return [line for line in found.stdout.splitlines() if re.search(r": (warning|error): ", line)]
+    lines = [line for line in found.stdout.splitlines() if re.search(r": (warning|error): ", line)]
+    return lines or failure(program, found)
+
+
+def failure(program: str, done: subprocess.CompletedProcess[str]) -> list[str]:
+    """Return a line if the program has failed: one that says nothing has found nothing."""
+    last = (done.stderr or done.stdout).strip().splitlines()[-1:]
+    return [f"{program}: exit code {done.returncode} {' '.join(last)}"] if done.returncode else []
 
 
 def misra(program: str) -> list[str]:
@@ -44,12 +51,13 @@ def misra(program: str) -> list[str]:
     with tempfile.TemporaryDirectory() as folder:
         options.append(f"--cppcheck-build-dir={folder}")
         command = [program, *options, f"-I{LIBRARY}", str(LIBRARY / "src")]
-        found = subprocess.run(command, capture_output=True, text=True).stderr
-    lines = [line for line in found.splitlines() if FINDING.search(line)]
+        done = subprocess.run(command, capture_output=True, text=True)
+    lines = [line for line in done.stderr.splitlines() if FINDING.search(line)]
     matches = {line: RULE.search(line) for line in lines}
     rules = {match[1] for match in matches.values() if match}
     allowed = deviations()
     wrong = [line for line, match in matches.items() if not match or match[1] not in allowed]
+    wrong = wrong or failure(program, done)
     return wrong + [f"rule {rule}: no longer departed from" for rule in sorted(allowed - rules)]
 
 

@@ -1,14 +1,15 @@
-"""Print what each stage of the C library costs on a small core, as the tables of docs/embedded.md.
+"""Print what each stage of the C library costs on a small core, as tables of the documentation.
 
 python .ci/embedded/costs.py [STAGE ...]
 
-Rows are the stages of ``stages.c``. Objects that the header declares and no stage measures are
-listed below the tables, so that a new one is not forgotten. Without the tools it says so in a line.
+They are those of docs/embedded.md and, of smoothers, docs/embedded-smoothers.md. Rows are stages
+of ``stages_of_...c``. What the header declares and no stage measures is listed below the tables, so
+that a new object or function is not forgotten. Without the tools it says so in a line.
 """
 
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,12 +18,25 @@ import cycles
 import stack
 
 CLOCK_HZ = 168e6
+LARGE_CLOCK_HZ = 480e6
+"""Of a Cortex-M7, which is taken to need a cycle for an instruction."""
 SHARE = 0.5
 """Part of the time of the processor that the stages may take; drivers and files need the rest."""
 POINTS_PER_S = 800.0
 """Points of 25 mm at 20 m/s, which is the speed of the signals."""
-OVER_POINTS = ("iri", "adaptive_end", "timer_distortion", "time_step")
+BINS_PER_S = 100.0
+OVER_POINTS: tuple[str, ...] = (
+    "adaptive_end",
+    "timer_distortion_steps",
+    "time_step",
+    "integral_steps",
+)
+OVER_POINTS += ("integral_reflecting", "cut_off_wave_number", "iri")
+OVER_POINTS += tuple(board.stages([board.HERE / "stages_of_profiles.c"]))
 """Stages whose samples are points, whatever the rate is."""
+SMOOTHERS = tuple(board.stages(board.SMOOTHERS))
+UNTRACED = ("level_fit_8_s",)
+"""Stages with too many instructions for a look at each of them."""
 
 
 @dataclass(frozen=True)
@@ -37,14 +51,35 @@ class Row:
     estimates: dict[int, cycles.Cost]
 
     @property
-    def per_point(self) -> bool:
-        """Whether its samples are points."""
-        return self.stage in OVER_POINTS
+    def per(self) -> str:
+        """What its samples are, where they are not those of the sensors."""
+        if self.stage.startswith("level_fit"):
+            return ", per bin"
+        return ", per point" if self.stage in OVER_POINTS else ""
+
+    def each_s(self, rate: int) -> float:
+        """Return how many of its samples there are in a second."""
+        return {", per bin": BINS_PER_S, ", per point": POINTS_PER_S}.get(self.per, rate)
+
+    def cycles(self, rate: int) -> tuple[float, float]:
+        """Return the fewest and the most cycles of a sample.
+
+        A short run is traced, in which windows may not be full: a long one has as many for an
+        instruction.
+        """
+        cost = self.estimates[rate]
+        scale = self.figures[rate].instructions / cost.instructions
+        return scale * cost.fewest, scale * cost.most
 
     def wheel_paths(self, rate: int) -> int:
         """Return for how many wheel paths a processor of ``CLOCK_HZ`` has the time, at most."""
-        each_s = POINTS_PER_S if self.per_point else rate
-        return int(SHARE * CLOCK_HZ / (self.estimates[rate].most * each_s))
+        return int(SHARE * CLOCK_HZ / (self.cycles(rate)[1] * self.each_s(rate)))
+
+    def time(self, rate: int) -> float:
+        """Return the share of a whole processor: of the small one by the most cycles."""
+        if self.estimates:
+            return self.cycles(rate)[1] * self.each_s(rate) / CLOCK_HZ
+        return self.figures[rate].instructions * self.each_s(rate) / LARGE_CLOCK_HZ
 
 
 def row(core: board.Board, stage: str, empty: tuple[int, int], traced: bool) -> Row:
@@ -53,33 +88,57 @@ def row(core: board.Board, stage: str, empty: tuple[int, int], traced: bool) -> 
     text, data = (a - b for a, b in zip(core.sizes(image), empty, strict=True))
     figures = {each.rate: each for each in core.run(image)}
     deepest = stack.deepest(image, core.folder)
-    return Row(stage, text, data, deepest, figures, cycles.estimate(core, stage) if traced else {})
+    looked_at = traced and stage not in UNTRACED
+    return Row(
+        stage, text, data, deepest, figures, cycles.estimate(core, stage) if looked_at else {}
+    )
 
 
-def table(rows: Sequence[Row]) -> str:
-    """Return a table of text, memory, instructions and, where they were traced, cycles."""
-    traced = bool(rows[0].estimates)
-    head = ["stage", "text", "data", "object", "stack", "instructions"]
-    head += ["cycles", "wheel paths"] if traced else []
+Column = Callable[[Row, int], str]
+"""What a cell shows of a row at a rate in Hz."""
+
+
+CELLS: dict[str, Column] = {
+    "object": lambda row, rate: f"{row.figures[rate].bytes}",
+    "instructions": lambda row, rate: f"{row.figures[rate].instructions:.0f}",
+    "longest push, 10⁶": lambda row, rate: f"{row.figures[rate].longest_push / 1e6:.2f}",
+    "cycles": lambda row, rate: f"{row.cycles(rate)[0]:.0f}–{row.cycles(rate)[1]:.0f}",
+    "wheel paths": lambda row, rate: f"{row.wheel_paths(rate)}",
+    "% of 168 MHz": lambda row, rate: f"{100.0 * row.time(rate):.3g}",
+    "% of 480 MHz": lambda row, rate: f"{100.0 * row.time(rate):.3g}",
+}
+
+
+def columns_of(smoothers: bool, traced: bool) -> list[str]:
+    """Return the columns behind the stack: of stages, or of smoothers."""
+    if not smoothers:
+        return ["instructions", *(("cycles", "wheel paths") if traced else ())]
+    counted = ["instructions", "longest push, 10⁶"]
+    return [*counted, *(("cycles", "% of 168 MHz") if traced else ("% of 480 MHz",))]
+
+
+def cell(row: Row, column: str) -> str:
+    """Return what a column shows at all rates, once where it is the same."""
+    if not row.estimates and column in ("cycles", "% of 168 MHz"):
+        return "–"
+    shown = [CELLS[column](row, rate) for rate in sorted(row.figures)]
+    return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
+
+
+def table(rows: Sequence[Row], traced: bool) -> str:
+    """Return a table of text, memory, instructions and what they take of a processor."""
+    columns = columns_of(rows[0].stage in SMOOTHERS, traced)
+    head = ["stage", "text", "data", "object", "stack", *columns]
     lines = [f"| {' | '.join(head)} |", f"|---|{'---:|' * (len(head) - 1)}"]
     for each in rows:
-        rates = sorted(each.figures)
-        columns = [[f"{each.figures[r].bytes}" for r in rates]]
-        columns.append([f"{each.figures[r].instructions:.0f}" for r in rates])
-        if traced:
-            columns.append(
-                [f"{each.estimates[r].fewest:.0f}–{each.estimates[r].most:.0f}" for r in rates]
-            )
-            columns.append([f"{each.wheel_paths(r)}" for r in rates])
-        shown = [c[0] if len(set(c)) == 1 else ", ".join(c) for c in columns]
-        name = f"`{each.stage}`" + (", per point" if each.per_point else "")
-        cells = [name, each.text, each.data, shown[0], each.stack, *shown[1:]]
+        cells = [f"`{each.stage}`{each.per}", each.text, each.data, cell(each, "object")]
+        cells += [each.stack, *(cell(each, column) for column in columns)]
         lines.append(f"| {' | '.join(map(str, cells))} |")
     return "\n".join(lines)
 
 
 def unmeasured() -> list[str]:
-    """Return the objects of the header that no stage measures."""
+    """Return the objects and functions of the header that no stage measures."""
     measured = {board.stage_kind(stage) for stage in board.stages()}
     return [f"`fr_{kind}`" for kind in board.kinds() if kind not in measured]
 
@@ -91,12 +150,17 @@ def main(chosen: Sequence[str]) -> int:
         print(f"costs on a small core: skipped, {', '.join(missing)} is not installed")
         return 0
     names = list(chosen) or board.stages()
+    plain = [name for name in names if name not in SMOOTHERS]
+    smoothers = [name for name in names if name in SMOOTHERS]
     with tempfile.TemporaryDirectory(prefix="floatref-embedded-") as folder:
         for title, target in (("Cortex-M4F, float", board.M4F), ("Cortex-M7, double", board.M7)):
             core = board.Board(target, Path(folder) / target.machine)
             empty = core.sizes(core.image("nothing"))
-            rows = [row(core, stage, empty, traced=target is board.M4F) for stage in names]
-            print(f"\n{title}, at 4 kHz and 16 kHz:\n\n{table(rows)}", flush=True)
+            traced = target is board.M4F
+            for page, of_page in (("", plain), (" smoothers", smoothers)):
+                rows = [row(core, stage, empty, traced) for stage in of_page]
+                if rows:
+                    print(f"\n{title}{page}:\n\n{table(rows, traced)}", flush=True)
     print(f"\nNot measured: {', '.join(unmeasured()) or 'nothing'}.")
     return 0
 

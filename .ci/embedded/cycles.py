@@ -16,7 +16,7 @@ from board import TOOLS, Board, quiet
 
 REFILL = (1, 3)
 """Cycles to refill the pipeline behind a branch that is taken: P of the manual."""
-SHORT = ("-DWARM=12", "-DTIMED=2")
+SHORT = ("-DWARM=12", "-DTIMED=2", "-DTRACED=1")
 """Pieces of a run that is traced, before the clock and with it: the IRI starts after 11 m."""
 RANGES: tuple[tuple[tuple[str, ...], tuple[int, int]], ...] = (
     (("it",), (0, 1)),
@@ -34,16 +34,24 @@ RANGES: tuple[tuple[tuple[str, ...], tuple[int, int]], ...] = (
 floating-point unit costs one more where the next instruction needs it."""
 MULTIPLE = ("ldm", "stm", "push", "pop", "vldm", "vstm", "vpush", "vpop")
 """Moves of a list of registers: one cycle, and one for each word."""
-CODE = re.compile(r"^ +([0-9a-f]+):\t(\S+)(?:\t([^;@\n]*))?", re.M)
-STEP = re.compile(rb"\[[0-9a-f]+/([0-9a-f]+)/")
+CODE = re.compile(r"^ +([0-9a-f]+):\t([0-9a-f ]+?) *\t(\S+)(?:\t([^;@\n]*))?")
+OWNER = re.compile(r"^[0-9a-f]+ <([^>]+)>:$")
+BLOCK = re.compile(rb"^Trace .*?\[[0-9a-f]+/([0-9a-f]+)/")
+STOPPED = b"Stopped execution of TB chain"
+CONDITION = "(?:eq|ne|cs|hs|cc|lo|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)?"
+BRANCH = re.compile(rf"(?:(?:b|bl|blx|bx){CONDITION}|cbn?z|tb[bh]|bkpt|isb|vmsr)(?:\.[nw])?$")
+PAGE = 1024
+"""QEMU's pages of such a core, in bytes: a block of instructions ends with its page."""
 
 
 @dataclass(frozen=True)
 class Instruction:
-    """An instruction of an image: its name, and its operands."""
+    """An instruction of an image: its name, its operands, its bytes, and whose it is."""
 
     name: str
     operands: str
+    size: int = 2
+    reads_clock: bool = False
 
 
 @dataclass(frozen=True)
@@ -57,9 +65,15 @@ class Cost:
 
 def code(image: Path) -> dict[int, Instruction]:
     """Return the instructions of an image by address."""
-    text = quiet([TOOLS[1], "-d", "--no-show-raw-insn", str(image)])
-    found = CODE.findall(text)
-    return {int(at, 16): Instruction(name, operands or "") for at, name, operands in found}
+    listed: dict[int, Instruction] = {}
+    owner = ""
+    for line in quiet([TOOLS[1], "-d", str(image)]).splitlines():
+        owner = match[1] if (match := OWNER.match(line)) else owner
+        if match := CODE.match(line):
+            at, words, name, operands = match.groups()
+            size = len(words.replace(" ", "")) // 2
+            listed[int(at, 16)] = Instruction(name, operands or "", size, owner == "board_ticks")
+    return listed
 
 
 def registers(operands: str) -> int:
@@ -86,21 +100,29 @@ def cycles(instruction: Instruction, taken: bool) -> tuple[int, int]:
     return low + refill[0], high + refill[1]
 
 
-def steps(board: Board, image: Path) -> Iterator[int]:
-    """Yield the address of every instruction that a run executes."""
-    command = [*board.emulation(image), "-singlestep", "-d", "exec,nochain", "-D", "/dev/stderr"]
+def blocks(board: Board, image: Path) -> Iterator[int]:
+    """Yield the address of every block of instructions that a run executes."""
+    command = [*board.emulation(image), "-d", "exec,nochain", "-D", "/dev/stderr"]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
         assert process.stderr is not None
+        begun = None
         for line in process.stderr:
-            match = STEP.search(line)
+            match = BLOCK.match(line)
+            # A block that is stopped before its first instruction is begun again.
+            if begun is not None and (match or line.startswith(STOPPED)):
+                if match:
+                    yield begun
+                begun = None
             if match:
-                yield int(match[1], 16)
+                begun = int(match[1], 16)
+        if begun is not None:
+            yield begun
 
 
 def windows(addresses: Iterable[int], clock: int) -> list[Counter[tuple[int, int]]]:
     """Return what is executed from one reading of the clock to the next, every other time.
 
-    Each is a count of pairs: an address, and the one after it.
+    Each is a count of pairs: the address of a block, and that of the one after it.
     """
     found: list[Counter[tuple[int, int]]] = []
     inside, before = False, 0
@@ -115,18 +137,40 @@ def windows(addresses: Iterable[int], clock: int) -> list[Counter[tuple[int, int
     return found
 
 
+def ends(instruction: Instruction) -> bool:
+    """Return whether a block ends with this instruction, as one that may go elsewhere."""
+    name, operands = instruction.name, instruction.operands
+    loads_pc = name.startswith(("pop", "ldm")) and re.search(r"\bpc\b", operands.partition("{")[2])
+    return bool(BRANCH.match(name) or loads_pc or operands.startswith("pc"))
+
+
+def block(start: int, following: int, listing: dict[int, Instruction]) -> list[int]:
+    """Return the instructions from ``start`` that are executed before the block ``following``.
+
+    A block ends with a branch, with its page, or before an instruction that reads the clock.
+    """
+    found, at, clock = [], start, listing.get(following)
+    while at in listing:
+        found.append(at)
+        behind = at + listing[at].size
+        crossed = behind // PAGE != at // PAGE or (behind + 2) // PAGE != at // PAGE
+        reads = clock is not None and clock.reads_clock
+        if ends(listing[at]) or (behind == following and (crossed or reads)):
+            break
+        at = behind
+    return found
+
+
 def cost(timed: Counter[tuple[int, int]], listing: dict[int, Instruction], samples: int) -> Cost:
-    """Return what each of ``samples`` takes of the instructions that were counted."""
-    ranges = [
-        (times, *cycles(listing[at], taken=not at < following <= at + 4))
-        for (at, following), times in timed.items()
-        if at in listing
-    ]
-    return Cost(
-        sum(times for times, _, _ in ranges) / samples,
-        sum(times * low for times, low, _ in ranges) / samples,
-        sum(times * high for times, _, high in ranges) / samples,
-    )
+    """Return what each of ``samples`` takes of the blocks that were counted."""
+    total = fewest = most = 0
+    for (start, following), times in timed.items():
+        executed = block(start, following, listing)
+        for at in executed:
+            away = at == executed[-1] and following != at + listing[at].size
+            low, high = cycles(listing[at], taken=away)
+            total, fewest, most = total + times, fewest + times * low, most + times * high
+    return Cost(total / samples, fewest / samples, most / samples)
 
 
 def estimate(board: Board, stage: str) -> dict[int, Cost]:
@@ -134,7 +178,7 @@ def estimate(board: Board, stage: str) -> dict[int, Cost]:
     image = board.image(stage, *SHORT)
     listing = code(image)
     (clock,) = re.findall(r"^([0-9a-f]+) <board_ticks>:", quiet([TOOLS[1], "-d", str(image)]), re.M)
-    found = windows(steps(board, image), int(clock, 16))
+    found = windows(blocks(board, image), int(clock, 16))
     rates = board.run(image)
     each = len(found) // len(rates)
     made = {}

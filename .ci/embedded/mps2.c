@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Start-up of a Cortex-M on the boards mps2-an386 and mps2-an500 as QEMU emulates them, with the
- * output of semihosting and the clock of SysTick. With `-icount shift=0` an instruction takes 1 ns,
- * so a tick of the 25 MHz clock is 40 instructions.
+ * output of semihosting and the first timer of the board, whose 32 bits last for 170,000 million
+ * instructions; SysTick has 24. With `-icount shift=0` an instruction takes 1 ns, so a tick of the
+ * 25 MHz clock is 40 instructions.
  */
 #include "board.h"
 
@@ -15,7 +16,7 @@
 extern uint32_t image_painted[], image_stack[], image_data_from[], image_data[], image_data_end[];
 extern uint32_t image_bss[], image_bss_end[];
 
-static volatile uint32_t *const systick = (volatile uint32_t *)0xE000E010u;
+static volatile uint32_t *const timer = (volatile uint32_t *)0x40000000u;
 static volatile uint32_t *const coprocessors = (volatile uint32_t *)0xE000ED88u;
 
 static void host_call(uint32_t operation, uintptr_t argument)
@@ -32,7 +33,7 @@ void board_put(const char *text)
 
 uint32_t board_ticks(void)
 {
-    return systick[2];
+    return timer[1];
 }
 
 static void stop_at_fault(void)
@@ -68,9 +69,9 @@ static void start(void)
         *to = 0u;
     *coprocessors |= 0xFu << 20; /* the floating-point unit */
     __asm__ volatile("dsb\n\tisb");
-    systick[1] = 0x00FFFFFFu;
-    systick[2] = 0u;
-    systick[0] = 5u; /* on, by the clock of the processor, without an interrupt */
+    timer[2] = 0xFFFFFFFFu; /* from where it starts again */
+    timer[1] = 0xFFFFFFFFu;
+    timer[0] = 1u; /* on, without an interrupt */
     paint();
     measure();
     put_painted();

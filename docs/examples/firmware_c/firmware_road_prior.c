@@ -19,7 +19,7 @@ static fr_status begin_levelling(struct vehicle *vehicle, const struct path *pat
     config.fit.rear_m = vehicle->rear_m;
     config.fit.lever_m = vehicle->lever_m;
     config.fit.lean_sigma_rad = 0.03 / sqrt((double)vehicle->paths);
-    TRY(begin_waiting(vehicle));
+    TRY(begin_waiting(vehicle, path->rate_hz));
     TRY(MAKE(level, &config, &vehicle->waiting->level));
     TRY(fr_level_every(vehicle->waiting->level, &vehicle->waiting->every));
     return begin_pitch(vehicle, path);
@@ -92,15 +92,15 @@ static fr_status take_bins(struct waiting *w, int paths)
     return FR_OK;
 }
 
-/* Give the samples whose counts are known to the levelling. */
+/* Give the samples whose way is known to the levelling. */
 static fr_status level_known(struct waiting *w, int paths)
 {
     fr_real force[CHUNK * MOST_LEVELLED], height[CHUNK * MOST_LEVELLED];
     while (w->pushed < w->known) {
         size_t n = w->known - w->pushed > CHUNK ? CHUNK : w->known - w->pushed, ready;
         interleave(w, (size_t)paths, n, force, height);
-        TRY(fr_level_push(w->level, force, height, w->counts + w->pushed, n, &ready));
-        TRY(model_pitch(w, force, height, w->counts + w->pushed, n));
+        TRY(fr_level_push(w->level, force, height, w->travelled + w->pushed, n, &ready));
+        TRY(model_pitch(w, force, height, w->travelled + w->pushed, n));
         w->pushed += n;
         TRY(take_bins(w, paths));
     }
@@ -110,9 +110,7 @@ static fr_status level_known(struct waiting *w, int paths)
 /* The stage: samples wait for levelling, which has to see all wheel paths. */
 fr_status stage_take(struct path *path, fr_real *force, fr_real *height, const int64_t *counts, size_t n)
 {
-    store(path, force, height, n);
-    if (path->number + 1 == path->vehicle->paths)
-        store_counts(path->vehicle->waiting, counts, n);
+    store(path, force, height, counts, n);
     return level_known(path->vehicle->waiting, path->vehicle->paths);
 }
 
@@ -146,5 +144,6 @@ fr_status stage_end(struct path *path)
         if (path->flags[i] != 0 || path->sigma[i] > MOST_SIGMA_M)
             path->valid[i] |= (path->flags[i] & FR_POINT_LEAP) != 0 ? FR_CAUSE_SLOW : FR_CAUSE_MISSING;
     }
+    TRY(cross_seams(path->vehicle->waiting, path));
     return fr_high_pass_profile(&config, path->elevation, n, path->elevation, path->room, &made);
 }

@@ -2,14 +2,17 @@
 
 #include <math.h>
 
-fr_status begin_waiting(struct vehicle *vehicle)
+fr_status begin_waiting(struct vehicle *vehicle, double rate_hz)
 {
     struct waiting *w = vehicle->waiting = run_memory(sizeof *w);
     if (vehicle->paths > MOST_LEVELLED)
         return FR_BAD_CONFIG;
-    if (w == NULL || (w->counts = run_memory(vehicle->samples * sizeof *w->counts)) == NULL)
+    if (w == NULL)
         return FR_TOO_SMALL;
-    return FR_OK;
+    begin_travelled(w, rate_hz);
+    w->counts = run_memory(vehicle->samples * sizeof *w->counts);
+    w->travelled = run_memory(vehicle->samples * sizeof *w->travelled);
+    return w->counts != NULL && w->travelled != NULL ? FR_OK : FR_TOO_SMALL;
 }
 
 fr_status add_waiting(struct path *path)
@@ -28,7 +31,8 @@ fr_status add_waiting(struct path *path)
     return all ? FR_OK : FR_TOO_SMALL;
 }
 
-void store(struct path *path, const fr_real *force, const fr_real *height, size_t count)
+void store(struct path *path, const fr_real *force, const fr_real *height, const int64_t *counts,
+           size_t count)
 {
     struct waiting *w = path->vehicle->waiting;
     fr_real *a = w->force[path->number] + w->taken, *h = w->height[path->number] + w->taken;
@@ -38,31 +42,8 @@ void store(struct path *path, const fr_real *force, const fr_real *height, size_
         a[k] = (path->of_samples[k] & FR_CAUSE_DRIFT) != 0 ? (fr_real)NAN : force[k];
         h[k] = unread ? (fr_real)NAN : height[k];
     }
-}
-
-/* The samples from `known` on have no count: a line up to `count` at number `at`. */
-static void bridge_counts(struct waiting *w, size_t at, int64_t count)
-{
-    int64_t before = w->known > 0 ? w->counts[w->known - 1] : count;
-    double from = (double)w->known - 1.0, slope = (double)(count - before) / ((double)at - from);
-    for (size_t k = w->known; k < at; k++)
-        w->counts[k] = before + (int64_t)(slope * ((double)k - from));
-    w->counts[at] = count;
-    w->known = at + 1;
-}
-
-void store_counts(struct waiting *w, const int64_t *counts, size_t count)
-{
-    for (size_t k = 0; k < count; k++)
-        if (counts[k] != FR_NO_COUNT)
-            bridge_counts(w, w->taken + k, counts[k]);
-    w->taken += count;
-}
-
-void end_counts(struct waiting *w)
-{
-    if (w->known > 0 && w->known < w->taken)
-        bridge_counts(w, w->taken - 1, w->counts[w->known - 1]);
+    if (path->number + 1 == path->vehicle->paths)
+        store_counts(w, counts, count);
 }
 
 void interleave(const struct waiting *w, size_t paths, size_t count, fr_real *force, fr_real *height)

@@ -6,11 +6,15 @@
 
 enum { MOST_LEVELLED = 4 };
 
-/* Samples by their number in the run: those before `known` have a count, those before `pushed` are
-   given to the levelling, and those before `sent` are level and with the smoother. */
+/* Samples by their number in the run: of those before `known` the way is known, those before `pushed`
+   are given to the levelling, and those before `sent` are level and with the smoother. */
 struct waiting {
     size_t taken, known, pushed, sent;
-    int64_t *counts;
+    int64_t *counts;             /* of the encoder, FR_NO_COUNT where it is wrong */
+    int64_t *travelled;          /* the way of the vehicle */
+    int64_t miscounted;          /* what the counts are beyond it */
+    size_t resumed;              /* the first count behind a gap that is not bridged yet; or 0 */
+    size_t beside, longest;      /* samples whose mean is the speed beside a gap; of a short one */
     fr_real *force[MOST_LEVELLED], *height[MOST_LEVELLED];
     struct path *path[MOST_LEVELLED];
     fr_level *level;
@@ -27,13 +31,16 @@ struct waiting {
 
 /* Memory for the samples of a run: FR_TOO_SMALL if there is no more, FR_BAD_CONFIG for more wheel
    paths than can be levelled. */
-fr_status begin_waiting(struct vehicle *vehicle);
+fr_status begin_waiting(struct vehicle *vehicle, double rate_hz);
 fr_status add_waiting(struct path *path);
 
 /* Store samples of a path behind those that are taken, NaN where a sensor measures nothing. */
-void store(struct path *path, const fr_real *force, const fr_real *height, size_t count);
+void store(struct path *path, const fr_real *force, const fr_real *height, const int64_t *counts,
+           size_t count);
 
-/* Store the counts of the same samples, behind those of all paths: a line where some are missing. */
+/* Counts of the same samples, behind those of all paths. Levelling and the pitch of the model take the
+   way of the vehicle: a leap would be a brake to them. */
+void begin_travelled(struct waiting *waiting, double rate_hz);
 void store_counts(struct waiting *waiting, const int64_t *counts, size_t count);
 
 /* The next `count` samples of all paths, those of one time beside each other. */
@@ -54,7 +61,10 @@ bool next_bin(struct waiting *waiting);
 /* By how much the model has moved the sine of the pitch at sample number `i`. */
 double moved_pitch(const struct waiting *waiting, size_t i);
 
-/* The end of a run: the last count holds. */
+/* At the end of a run: across counts that were lost or made up the elevation goes on at its grade. */
+fr_status cross_seams(const struct waiting *waiting, const struct path *path);
+
+/* The end of a run: behind the last count the vehicle is where it was. */
 void end_counts(struct waiting *waiting);
 
 #endif

@@ -10,14 +10,24 @@
  * Calls. Each returns a status, FR_OK if the call did its work. Any other status leaves the object
  * and the arrays as they were. A push takes any number of samples, 0 too, and gives the same bits
  * for any division into pushes. `capacity` is the room of the output in samples and `*written` gets
- * the number written; 0 on a refusal, but for FR_OUTPUT_FULL the room that is needed.
+ * the number written; 0 on a refusal, but for FR_OUTPUT_FULL the room that is needed. An array that
+ * would get or give no sample may be NULL; with NULL in place of an output that has samples the
+ * status is FR_NULL_POINTER, and *written stays 0. A saved object is one of the same version.
+ *
+ * Settings. One out of its range is FR_BAD_CONFIG, and fr_X_size() is 0. A setting is finite and
+ * above zero unless its comment gives another range, with its ends; where values have names it is
+ * one of those of the comment; `reserved` is 0. Two settings may be impossible together: 1 / rate_hz
+ * and the like have to be finite, and interval_m is 1e-3 to 1e9 times metres_per_count.
  *
  * Samples. fr_real is double, or float if FR_FLOAT is defined, for the library and for its callers;
  * fr_real_size() tells one from the other at run time. Settings are double in both. Distances are
  * counts of the encoder, which are exact at any length. Infinite samples are refused; so are
  * missing ones (NaN), unless `missing` is FR_MISSING_BRIDGED: then the sample before is repeated.
+ * fr_projection has no such setting: a missing sample there is a missing point.
  *
- * Equations (5.3) and so on are those of Karamihas (2021), as in the SDK.
+ * Numbers in parentheses, as (5.3), are equations and, where a method is named, sections of
+ * Karamihas (2021), as in the SDK: travel speed is section 5.6 and 5.7, local suppression 5.6 with
+ * the equations (5.1) and (5.2).
  */
 #ifndef FLOATREF_H
 #define FLOATREF_H
@@ -62,13 +72,14 @@ enum {
     FR_TOO_SMALL = 2,      /* the memory is smaller than fr_X_size() */
     FR_MISALIGNED = 3,     /* the memory is not aligned to FR_ALIGNMENT */
     FR_BAD_OBJECT = 4,     /* the memory holds no object of this kind and of this build */
-    FR_WRONG_ORDER = 5,    /* the run has ended, or a call comes before one that it needs */
-    FR_BAD_CONFIG = 6,     /* a setting is out of its range, zero, infinite or NaN */
+    FR_WRONG_ORDER = 5,    /* the run has ended, a call comes before one that it needs, or there is
+                            * no value yet */
+    FR_BAD_CONFIG = 6,     /* a setting is out of its range, infinite or NaN */
     FR_BAD_SAMPLE = 7,     /* a sample is infinite, missing (NaN), or out of its range */
     FR_BAD_CUTOFF = 8,     /* a cut-off, or that of a speed, is not within 0 to half the rate */
     FR_GOES_BACK = 9,      /* the encoder counts go back */
     FR_OUTPUT_FULL = 10,   /* the output has no room; *written is the room that is needed */
-    FR_TOO_MANY = 11,      /* more samples in one push than memory can hold */
+    FR_TOO_MANY = 11,      /* more samples in one push than it may have, or than memory can hold */
     FR_INCOMPLETE_SET = 12, /* not all signals of the set have passed with equally many samples */
     FR_OTHER_SPEED = 13,   /* signals of one set were given different speeds */
     FR_TOO_LATE = 14,      /* the sample of a GNSS reading has been filtered, or has a reading */
@@ -78,7 +89,9 @@ enum {
 /* What happens to a missing (NaN) sample. */
 enum { FR_MISSING_REFUSED = 0, FR_MISSING_BRIDGED = 1 };
 
-/* A count that is missing, where a setting bridges missing samples; never the first of a run. */
+/* A count that is missing; never the first of a run. Travel speed, fr_adaptive and
+ * fr_road_prior take it where a setting bridges missing samples, fr_causes, fr_usual and
+ * fr_encoder_screening always; fr_level, fr_pitch and the Kalman calls never. */
 #define FR_NO_COUNT INT64_MIN
 
 /* One line in English; also for a number that is no status. Never NULL. */
@@ -101,7 +114,8 @@ enum { FR_FORWARD = 1, FR_BACKWARD = 2 };
 
 typedef struct fr_filter_config {
     double step;       /* between samples, in s or in m; no default */
-    double cutoff;     /* of the third-order filter, in Hz or in cycles/m; no default */
+    double cutoff;     /* of the third-order filter, in Hz or in cycles/m, below half a cycle per
+                        * step; no default */
     int32_t order;     /* 1 or 2; 1 */
     int32_t passes;    /* FR_HIGH_PASS or FR_LOW_PASS; FR_HIGH_PASS */
     int32_t direction; /* FR_FORWARD or FR_BACKWARD; FR_FORWARD */
@@ -167,8 +181,8 @@ FR_API fr_status fr_varying_push(fr_varying *filter, const fr_real *x, const fr_
  * the three for an object. `y` may be `x`.
  */
 typedef struct fr_integral_config {
-    double step_s;   /* between samples; no default, not used by the two calls over points */
-    double start;    /* value of the integral at the first sample; 0 */
+    double step_s;   /* between samples, 0 or above; no default, not used over points */
+    double start;    /* value of the integral at the first sample, any; 0 */
     int32_t missing; /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED */
 } fr_integral_config;
 
@@ -206,7 +220,8 @@ FR_API fr_cut_off_config fr_cut_off_defaults(void);
 FR_API fr_status fr_cut_off_frequency(const fr_cut_off_config *config, const fr_real *speed,
                                       size_t count, fr_real *frequency, size_t capacity,
                                       size_t *written);
-/* f_c / v in cycles/m, at most one cycle in four intervals, as at a standstill. */
+/* f_c / v in cycles/m, at most one cycle in four intervals, as at a standstill. FR_BAD_CONFIG for an
+ * interval of 0. */
 FR_API fr_status fr_cut_off_wave_number(const fr_cut_off_config *config, double interval_m,
                                         const fr_real *speed, size_t count, fr_real *wave_number,
                                         size_t capacity, size_t *written);
@@ -220,7 +235,7 @@ enum { FR_BACK_REFUSED = 0, FR_BACK_TAKEN = 1 };
  * Taken: the speed is below zero, and no point is found again, as in the pipelines of the SDK. */
 
 typedef struct fr_travel_speed_config {
-    double rate_hz;          /* samples per second; no default */
+    double rate_hz;          /* samples per second, at most 1e7; no default */
     double metres_per_count; /* of the encoder; no default */
     double window_s;         /* at most 60; 0.05 */
     int32_t back;            /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
@@ -232,7 +247,7 @@ FR_API fr_travel_speed_config fr_travel_speed_defaults(void);
 FR_API size_t fr_travel_speed_size(const fr_travel_speed_config *config);
 FR_API fr_status fr_travel_speed_init(void *memory, size_t size, const fr_travel_speed_config *config,
                                       fr_travel_speed **out);
-/* `counts` are within 2^50 of zero. */
+/* `counts` are within 2^50 of zero (FR_BAD_SAMPLE). */
 FR_API fr_status fr_travel_speed_push(fr_travel_speed *travel, const int64_t *counts, size_t count,
                                       fr_real *speed, size_t capacity, size_t *written);
 
@@ -244,7 +259,7 @@ FR_API fr_status fr_travel_speed_push(fr_travel_speed *travel, const int64_t *co
 typedef struct fr_projection_config {
     double interval_m;       /* between points; no default */
     double metres_per_count; /* of the encoder; no default */
-    double rate_hz;          /* samples per second, for time steps; 0, without them */
+    double rate_hz;          /* samples per second, for time steps, 0 or above; 0, without them */
 } fr_projection_config;
 
 typedef struct fr_projection fr_projection;
@@ -253,7 +268,8 @@ FR_API fr_projection_config fr_projection_defaults(void);
 FR_API size_t fr_projection_size(const fr_projection_config *config);
 FR_API fr_status fr_projection_init(void *memory, size_t size, const fr_projection_config *config,
                                     fr_projection **out);
-/* The number of points written differs from that of samples; FR_OUTPUT_FULL says how many. */
+/* The number of points written differs from that of samples; FR_OUTPUT_FULL says how many.
+ * FR_BAD_SAMPLE where the counts leap by ten million points. */
 FR_API fr_status fr_projection_push(fr_projection *projection, const int64_t *counts,
                                     const fr_real *x, size_t count, fr_real *y, size_t capacity,
                                     size_t *written);
@@ -274,7 +290,8 @@ FR_API fr_time_step_config fr_time_step_defaults(void);
 FR_API size_t fr_time_step_size(const fr_time_step_config *config);
 FR_API fr_status fr_time_step_init(void *memory, size_t size, const fr_time_step_config *config,
                                    fr_time_step **out);
-/* `ticks` are within 2^50 of zero and do not go back. The first trigger has a step of 0. */
+/* `ticks` are within 2^50 of zero (FR_BAD_SAMPLE) and do not go back (FR_GOES_BACK). The first
+ * trigger has a step of 0. */
 FR_API fr_status fr_time_step_push(fr_time_step *timer, const int64_t *ticks, size_t count,
                                    fr_real *time_step, size_t capacity, size_t *written);
 
@@ -287,7 +304,7 @@ typedef struct fr_adaptive_config {
     fr_travel_speed_config travel;   /* rate, encoder and window; no default of the first two */
     fr_cut_off_config cut_off; /* (5.3) */
     double interval_m;         /* between points of the profile; no default */
-    double gravity_mps2;       /* taken from every acceleration: 9.80665 for a specific force; 0 */
+    double gravity_mps2;       /* taken from every acceleration: 9.80665 for a specific force; any; 0 */
     int32_t missing;           /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED */
     int32_t tangent;           /* FR_TANGENT_EXACT or FR_TANGENT_SHORT; FR_TANGENT_EXACT */
     int32_t cut_off_every;     /* samples between updates of the cut-off, 1 to 65536; 1, exact.
@@ -322,7 +339,8 @@ FR_API fr_status fr_adaptive_finish(fr_adaptive *adaptive, const fr_real *elevat
  */
 typedef struct fr_high_pass_set_config {
     double step;     /* between samples, in s or in m; no default */
-    double cutoff;   /* of each third-order pass, in Hz or in cycles/m; no default */
+    double cutoff;   /* of each third-order pass, in Hz or in cycles/m, below half a cycle per step; no
+                      * default */
     int32_t missing; /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED */
 } fr_high_pass_set_config;
 
@@ -371,7 +389,7 @@ FR_API fr_status fr_adaptive_set_height(fr_adaptive_set *set, const fr_real *x,
                                         const fr_real *speed, size_t count, fr_real *y,
                                         size_t capacity, size_t *written);
 /* End the run with the backward pass in time over all samples, with that over distance of points
- * `interval_m` apart at the speed stored with each, or without one. */
+ * `interval_m` apart at the speed stored with each (FR_BAD_CONFIG for 0), or without one. */
 FR_API fr_status fr_adaptive_set_reverse(fr_adaptive_set *set, const fr_real *elevation,
                                          const fr_real *speed, size_t count, fr_real *profile,
                                          size_t capacity, size_t *written);
@@ -466,17 +484,22 @@ enum {
  * see docs/c-library.md. A call that gives points out takes far longer than others.
  */
 typedef struct fr_road_prior_config {
-    double rate_hz;          /* samples per second, 10 at least; no default */
+    double rate_hz;          /* samples per second, 10 to 1e7; no default */
     double metres_per_count; /* of the encoder; no default */
-    double interval_m;       /* between points; no default */
-    double gravity_mps2;     /* taken from every acceleration: 9.80665 for a specific force; 0 */
+    double interval_m;       /* between points, at most 4e8 in a lag at fastest_mps; no default */
+    double gravity_mps2;     /* taken from every acceleration: 9.80665 for a specific force, within
+                                1e6 of 0; 0 */
     double node_rate_hz;     /* nodes per second, 10 to 1000, of the filter; 500 */
-    double lag_s;            /* least time from a point to its output; 60 */
+    double lag_s;            /* least time from a point to its output, at most 3600; 60 */
     double fastest_mps;      /* speed above which the lag is shorter; 40 */
     double tolerance_m;      /* a point that readings to come may change by more, as 1-sigma behind
-                                the high-pass, is FR_POINT_UNSETTLED; 1e-4 */
-    double wavelength_m;     /* cut-off of each pass of HPF_B3x2, for the 1-sigma; 105.91 */
-    /* What sensors, vehicle and road are taken for, as in the SDK. Densities per sqrt(Hz). */
+                                the high-pass, is FR_POINT_UNSETTLED; 0 or above; 1e-4 */
+    double wavelength_m;     /* cut-off of each pass of HPF_B3x2, for the 1-sigma, 1e-3 to 1e6;
+                                105.91 */
+    /* What sensors, vehicle and road are taken for, as in the SDK. Densities per sqrt(Hz). Ranges: 0 to
+     * 1e9 for what disturbs the acceleration, `edge_sigmas`, `height_m` and `most_sigma_share`; 1e-15
+     * to 1e6 for `acceleration_bias`, `reading_m`, `road_m`, `long_waves_per_m`, `road_reach_m`,
+     * `lean_sigma_rad`, `tilt_sigma` and `pitch_hz`; within 1e9 of 0 for what is expected. */
     double acceleration;         /* white noise of the accelerometer in m/s^2; 1.5e-4 */
     double acceleration_bias;    /* 1-sigma of its bias at the start in m/s^2; 0.03 */
     double acceleration_walk;    /* random walk of the bias in m/s^2 per sqrt(s); 1e-4 */
@@ -486,16 +509,17 @@ typedef struct fr_road_prior_config {
     double road_m;               /* q = G_s/2 of (2.2); 4e-6 */
     double long_waves_per_m;     /* G_a/2 of (2.4); 2e-7 */
     double road_reach_m;         /* distance after which the road is forgotten; 150 */
-    double road_memory_m;        /* travel over which the run's own road takes over, 32 at least; 300 */
+    double road_memory_m;        /* travel over which the run's own road takes over, 32 to 1e18; 300 */
     double edge_sigmas;          /* a height at a standstill so far off is an edge; 6 */
     double lean_expected_rad, lean_sigma_rad; /* of the accelerometer's axis forward; 0, 0.03 */
     double tilt_expected, tilt_sigma; /* pitch per acceleration, rad per m/s^2; 0, 0.01 */
-    double pitch_hz, pitch_damping;   /* of the pitch response; 1.6, 0.3 */
+    double pitch_hz, pitch_damping;   /* of the pitch response, damping 0 to below 1; 1.6, 0.3 */
     double height_m;                  /* 1-sigma of a height, for the 1-sigma of the result; 4e-5 */
     double most_sigma_share; /* a 1-sigma that is a larger share of the road's bend is uncertain; 0.3 */
     int32_t missing; /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; FR_MISSING_REFUSED. Bridged: a
                         missing height is no reading, a missing acceleration is one of 0 that is
-                        taken for as uncertain as `missing_acceleration`; such points are flagged. */
+                        taken for as uncertain as `missing_acceleration`, and counts may be missing
+                        but for the first; such points are flagged. */
     int32_t back;    /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
 } fr_road_prior_config;
 
@@ -505,15 +529,18 @@ FR_API fr_road_prior_config fr_road_prior_defaults(void);
 FR_API size_t fr_road_prior_size(const fr_road_prior_config *config);
 FR_API fr_status fr_road_prior_init(void *memory, size_t size, const fr_road_prior_config *config,
                                     fr_road_prior **out);
-/* Acceleration in m/s^2 and height in m, both within a million, of `count` samples. Of each point
+/* Acceleration in m/s^2 and height in m, both within a million of 0, of `count` samples; the first
+ * height and the first count of the run are never missing (FR_BAD_SAMPLE). Of each point
  * that comes out: elevation in m before any high-pass, 1-sigma of it in m behind HPF_B3x2, and
- * flags. FR_BAD_SAMPLE too where the encoder leaps by more than half a lag at `fastest_mps`. */
+ * flags. FR_BAD_SAMPLE too where the encoder leaps by more than half a lag at `fastest_mps`. The way
+ * across missing counts (FR_NO_COUNT) is no travel of the vehicle, which goes on at its last speed;
+ * points on it come with the next count. */
 FR_API fr_status fr_road_prior_push(fr_road_prior *road, const fr_real *acceleration,
                                     const fr_real *height, const int64_t *counts, size_t count,
                                     fr_real *elevation, fr_real *sigma, uint8_t *flags,
                                     size_t capacity, size_t *written);
 /* The same behind a stage that levels the acceleration: the share of each sample, 0 to 1, that is
- * levelled, and the share that is missing; either may be NULL, for 0. */
+ * levelled, and the share that is missing; either may be NULL, for 0. Others are FR_BAD_SAMPLE. */
 FR_API fr_status fr_road_prior_push_levelled(fr_road_prior *road, const fr_real *acceleration,
                                              const fr_real *height, const int64_t *counts,
                                              const fr_real *levelled, const fr_real *missing,
@@ -530,7 +557,8 @@ FR_API fr_status fr_road_prior_finish(fr_road_prior *road, fr_real *elevation, f
  */
 typedef struct fr_iri_config {
     double interval_m;       /* between points, at most 2; no default */
-    double moving_average_m; /* base length of the tyre envelope, 0 for no envelope; 0.25 */
+    double moving_average_m; /* base length of the tyre envelope, 0 for no envelope; 0.25. Both this
+                                and the next have fewer than 2^24 intervals */
     double start_length_m;   /* the car starts at the mean slope of this length; 11 */
     double speed_kmh;        /* simulated speed; 80 */
 } fr_iri_config;
@@ -566,9 +594,24 @@ FR_API fr_status fr_high_pass_profile(const fr_high_pass_profile_config *config,
                                       const fr_real *elevation, size_t count, fr_real *filtered,
                                       size_t capacity, size_t *written);
 
+/* A seam: between point `last` and point `next` the encoder has counted what was not travelled, or
+ * has lost what was. A road does not step there, and its grade goes on for the travel that a
+ * high-pass over distance sees; so points between are on a line at the grade before, and all behind
+ * are moved to its end. Take the seams of a run in order, before any high-pass. */
+typedef struct fr_seam_config {
+    double interval_m; /* between points; no default */
+    double grade_m;    /* travel over which the grade is measured; 20 */
+    double point_m;    /* one point in each of these is part of it; 0.25 */
+} fr_seam_config;
+
+FR_API fr_seam_config fr_seam_defaults(void);
+/* FR_BAD_CONFIG too unless last < next < count. */
+FR_API fr_status fr_seam(const fr_seam_config *config, size_t last, size_t next, fr_real *elevation,
+                         size_t count);
+
 typedef struct fr_cross_correlation_config {
     double interval_m;   /* between points; no default */
-    double max_offset_m; /* farthest offset to either side; 1 */
+    double max_offset_m; /* farthest offset to either side, 0 or above; 1 */
 } fr_cross_correlation_config;
 
 typedef struct fr_agreement {
@@ -604,8 +647,8 @@ typedef struct fr_causes_config {
     double interval_m;       /* between points of the profile; no default */
     double slow_mps;         /* 4.4704 */
     double stopping_time_s;  /* 5 */
-    double window_s;         /* 0.25 */
-    int32_t every;           /* samples between looks at the counts; 1, as in the SDK */
+    double window_s;         /* at most 1e7 looks; 0.25 */
+    int32_t every;           /* samples between looks at the counts, 1 or more; 1, as in the SDK */
     int32_t reserved;        /* 0 */
 } fr_causes_config;
 
@@ -624,7 +667,7 @@ FR_API fr_status fr_causes_push(fr_causes *causes, const int64_t *counts,
 FR_API fr_status fr_causes_finish(fr_causes *causes, uint8_t *of_points, size_t count);
 
 typedef struct fr_validity_config {
-    double interval_m;      /* between points; no default */
+    double interval_m;      /* between points; no default. The lengths below are 0 or above */
     double drift_m;         /* to either side of a disturbed integral; 105.91, a cut-off wavelength */
     double run_in_m;        /* from either end of the run; 52.955 */
     double before_slow_m;   /* 15, as for 5.7 */
@@ -633,7 +676,8 @@ typedef struct fr_validity_config {
 } fr_validity_config;
 
 FR_API fr_validity_config fr_validity_defaults(void);
-/* 1 for a valid point and 0 for another, of all points of a run. `valid` may be `causes`. */
+/* 1 for a valid point and 0 for another, of all points of a run. `valid` may be `causes`, of which
+ * FR_BAD_SAMPLE refuses bits that are no cause. */
 FR_API fr_status fr_validity(const fr_validity_config *config, const uint8_t *causes, size_t count,
                              uint8_t *valid, size_t capacity, size_t *written);
 
@@ -675,18 +719,20 @@ typedef struct fr_screening_config {
     double rate_hz;          /* samples per second; no default */
     double metres_per_count; /* of the encoder; no default */
     double longest_gap_s;    /* that a line bridges well; 0.01 */
-    double stuck_s;          /* shortest run of a stuck sensor; 0.05, an accelerometer: 0.02 */
+    double stuck_s;          /* shortest run of a stuck sensor; 0.05, an accelerometer: 0.02. With
+                                `holds` it makes two samples or more */
     double holds;            /* the same in usual holds; 20 */
     double hold;             /* usual hold: samples for which a working sensor repeats itself; 1 */
     double travel_m;         /* shortest distance that the vehicle goes meanwhile; 0.5 */
     double spread_mps2;      /* least spread of the accelerometer meanwhile; 0.1, 0 without one */
-    double range_least;      /* ends of the range of a height; 0 and 0, not known */
+    double range_least;      /* ends of the range of a height, in order; 0 and 0, not known */
     double range_greatest;
     double stay_s;     /* shortest stay at an end; 0.002 */
     double stay_holds; /* the same in usual holds; 5 */
     double leap;       /* smallest step to the end or back, in m; 0.005 */
     double spike;      /* smallest spike, from 1 kHz on: of a height 0.05 m, of an accelerometer on
-                          the body 0.5 g, and 15 times fr_usual_values.off_neighbours; 0, no spikes */
+                          the body 0.5 g, and 15 times fr_usual_values.off_neighbours; 0, no spikes. Has to
+                          be 0 below 1 kHz */
 } fr_screening_config;
 
 typedef struct fr_screening fr_screening;
@@ -707,13 +753,13 @@ FR_API fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, si
 /* An accelerometer at the end of its range: three or more identical samples there that cut off a
  * swing (decision 0012). Memory: a ring of three times `farthest`, or 530 holds, in samples. */
 typedef struct fr_saturation_config {
-    double hold;           /* usual hold in samples, at least 1; 1 */
-    double quantum;        /* smallest step of the sensor in m/s^2; 0 */
-    double range_least;    /* ends of the range in m/s^2; no default */
+    double hold;           /* usual hold in samples, 1 to 4096; 1 */
+    double quantum;        /* smallest step of the sensor in m/s^2, 0 or above; 0 */
+    double range_least;    /* ends of the range in m/s^2, the first below the other; no default */
     double range_greatest;
-    double rest_mps2;      /* reading at rest; 9.80665 */
+    double rest_mps2;      /* reading at rest, any; 9.80665 */
     double outermost_mps2; /* an end is this far from rest at least; 7.3549875 */
-    int32_t farthest;      /* samples beside a run that are looked at, at most; 1000 */
+    int32_t farthest;      /* samples beside a run that are looked at, at most, 1 to 2^22; 1000 */
     int32_t reserved;      /* 0 */
 } fr_saturation_config;
 
@@ -737,8 +783,8 @@ typedef struct fr_encoder_screening_config {
     double rate_hz;          /* samples per second, or ticks of push_timed(); no default */
     double metres_per_count; /* no default */
     double usual_m;          /* usual step from sample to sample that has one; 0, a count */
-    double off_m;            /* largest error of a way; 0, a usual step */
-    double knot_s;           /* shortest time of a way; 0.025 */
+    double off_m;            /* largest error of a way, 0 or above as usual_m; 0, a usual step */
+    double knot_s;           /* shortest time of a way, less than 1e9 samples; 0.025 */
 } fr_encoder_screening_config;
 
 typedef struct fr_encoder_screening fr_encoder_screening;
@@ -765,7 +811,8 @@ FR_API fr_status fr_encoder_screening_finish(fr_encoder_screening *screening, fr
 /* What is usual of a sensor, where no data sheet says it: learned from a drive, and stored. Memory:
  * 4 bytes for each length of hold. */
 typedef struct fr_usual_config {
-    int32_t longest;  /* holds of this number of samples and more are counted together; 4096 */
+    int32_t longest;  /* holds of this number of samples and more are counted together, 2 to 2^20;
+                       * 4096 */
     int32_t reserved; /* 0 */
 } fr_usual_config;
 
@@ -814,6 +861,8 @@ FR_API fr_saturation_config fr_saturation_of(const fr_usual_values *usual);
  * sample, or up to `late_s` behind it, which the output waits for. Without readings for half a
  * second constants take their place.
  */
+/* Process noise and `height_m` are 0 to 1e9, that of readings, of constants and of the reflection 1e-9
+ * to 1e9. */
 typedef struct fr_kalman_noise {
     double acceleration;         /* vertical acceleration, in m/s^2/sqrt(Hz); 4.65e-5 */
     double acceleration_walk;    /* of its bias, in m/s^2/sqrt(s); 1e-4 */
@@ -838,16 +887,17 @@ typedef struct fr_kalman_noise {
 } fr_kalman_noise;
 
 typedef struct fr_kalman_filter_config {
-    fr_travel_speed_config travel; /* rate and encoder; no default but for the window */
+    fr_travel_speed_config travel; /* rate, 2 Hz or more, and encoder; no default but for the window */
     fr_kalman_noise noise;
-    double gravity_mps2;           /* 9.80665 */
-    double antenna_m[3];           /* from the reference point: forward, to the side, up; 0 */
-    double reflection_speed_mps;   /* the vehicle is stationary below this speed; 0.16 / 3.6 */
-    double late_s;                 /* how late a reading may come; 0 */
+    double gravity_mps2;           /* within 1e9 of 0; 9.80665 */
+    double antenna_m[3];           /* from the reference point: forward, to the side, up, within 1e9 of
+                                      0; 0 */
+    double reflection_speed_mps;   /* the vehicle is stationary below this speed, 0 to 10; 0.16 / 3.6 */
+    double late_s;                 /* how late a reading may come, 0 to 60; 0 */
     int32_t gnss;                  /* 1: height and velocity of GNSS, 0: constants; 1 */
     int32_t attitude;              /* 1: pitch and roll of GNSS, 0: constants; 1 */
     int32_t reflects;              /* 1: the height sensor in place of GNSS heights at a stop; 1 */
-    int32_t readings;              /* GNSS readings that may wait at a time; 64 */
+    int32_t readings;              /* GNSS readings that may wait at a time, 1 to 100000; 64 */
     int32_t missing;               /* FR_MISSING_REFUSED or FR_MISSING_BRIDGED; ..._REFUSED */
     int32_t reserved;              /* 0 */
 } fr_kalman_filter_config;
@@ -871,11 +921,13 @@ FR_API fr_status fr_kalman_filter_init(void *memory, size_t size,
 /* A reading of height in m, vertical velocity in m/s, pitch and roll in rad; all but the height may
  * be NaN. `variances` are those of the four, NaN or the whole NULL for those of the settings; those
  * of readings that come faster than 22 Hz count for less. Give readings with fixed ambiguities
- * alone. FR_TOO_LATE if its sample has been filtered or has a reading, FR_QUEUE_FULL if too many
- * wait, FR_WRONG_ORDER if the settings are without GNSS. */
+ * alone. FR_BAD_SAMPLE for values beyond 1e9 and variances beyond 1e-18 to 1e9, FR_TOO_LATE if its
+ * sample has been filtered or has a reading, FR_QUEUE_FULL if too many wait, FR_WRONG_ORDER if the
+ * settings are without GNSS. */
 FR_API fr_status fr_kalman_filter_push_gnss(fr_kalman_filter *filter, int64_t sample,
                                             const double values[4], const double variances[4]);
-/* The floating reference height in m of every sample, `late_s` behind the input. */
+/* The floating reference height in m of every sample, `late_s` behind the input. FR_BAD_SAMPLE for
+ * samples beyond 1e9. */
 FR_API fr_status fr_kalman_filter_push(fr_kalman_filter *filter, const fr_imu *imu,
                                        const double *height, const int64_t *counts, size_t count,
                                        double *reference_height, size_t capacity, size_t *written);
@@ -896,11 +948,13 @@ FR_API fr_status fr_kalman_filter_left_out(const fr_kalman_filter *filter, int64
 typedef struct fr_kalman_config {
     fr_kalman_filter_config filter;
     double interval_m;   /* between points; no default */
-    double lag_s;        /* a point has so much time behind it; 60, without GNSS 180 */
-    double fastest_mps;  /* at a higher speed the lag is shorter; 40 */
-    double gnss_hz;      /* at more readings per second the lag is shorter; 20 */
-    double wavelength_m; /* cut-off of each pass of HPF_B3x2, for the 1-sigma; 105.91 */
-    double tolerance_m;  /* 1-sigma of what may change, above which a point is flagged; 1e-4 */
+    double lag_s;        /* a point has so much time behind it, 1 to 3600; 60, without GNSS 180 */
+    double fastest_mps;  /* at a higher speed the lag is shorter, 0.1 to 200; 40 */
+    double gnss_hz;      /* at more readings per second the lag is shorter, 0 to 1000; 20 */
+    double wavelength_m; /* cut-off of each pass of HPF_B3x2, for the 1-sigma, interval_m to 1e9;
+                            105.91 */
+    double tolerance_m;  /* 1-sigma of what may change, above which a point is flagged, 0 to
+                            1e9; 1e-4 */
 } fr_kalman_config;
 
 typedef struct fr_kalman fr_kalman;
@@ -933,36 +987,39 @@ FR_API fr_status fr_kalman_left_out(const fr_kalman *kalman, int64_t count[4]);
  */
 typedef struct fr_level_fit_config {
     double step_s;        /* from bin to bin, 0.002 to 0.06; 0.01 */
-    double front_m;       /* front axle ahead of the laser; no default */
-    double rear_m;        /* rear axle ahead of the laser, below that of the front axle; no default */
-    double lever_m;       /* laser ahead of its accelerometer; 0 */
-    double wavelength_m;  /* cut-off of the high-pass that the profile passes; 105.91 */
+    double front_m;       /* front axle ahead of the laser, within 100 of 0; no default */
+    double rear_m;        /* rear axle ahead of the laser, 0.1 to 100 less than that; no default */
+    double lever_m;       /* laser ahead of its accelerometer, within 100 of 0; 0 */
+    double wavelength_m;  /* cut-off of the high-pass that the profile passes, 1 to 1000; 105.91 */
+    /* Densities and 1-sigmas are 1e-12 to 1e6. */
     double road_m;        /* intensity of the road's elevation; 4e-6 */
     double bends_per_m;   /* intensity of a plain road's slope, in 1/m; 2e-7 */
     double acceleration;  /* density of the accelerometer, in m/s^2/sqrt(Hz); 1.5e-4 */
     double missing_acceleration; /* the same where samples are missing; 0.3 */
     double bias;          /* 1-sigma of its bias in m/s^2; 0.03 */
     double walk;          /* and of its walk in m/s^2/sqrt(s); 1e-4 */
-    double gain;          /* expected pitch per force along the road, in rad per m/s^2; 0.00431 */
+    double gain;          /* expected pitch per force along the road, in rad per m/s^2, 0.0005 to 0.02;
+                           * 0.00431 */
     double gain_sigma;    /* and its 1-sigma; 0.00371 */
-    double lean_rad;      /* expected lean of the accelerometer's axis backward; 0 */
+    double lean_rad;      /* expected lean of the accelerometer's axis backward, within 1 of 0; 0 */
     double lean_sigma_rad; /* and its 1-sigma, 0.03 over the root of wheel paths; 0.0212 for two */
-    double pitch_hz;      /* natural frequency of the body in pitch; 1.6 */
-    double pitch_damping; /* and its damping ratio; 0.3 */
+    double pitch_hz;      /* natural frequency of the body in pitch, 0.01 to 100; 1.6 */
+    double pitch_damping; /* and its damping ratio, 1e-3 to 1; 0.3 */
     double longest_s;     /* longest stretch in bins that are given, 2 to 600; 120 */
-    double most_travel_m; /* longest stretch of road, at most 10000; 1500 */
+    double most_travel_m; /* longest stretch of road, 1 to 10000; 1500 */
     int32_t most_width;   /* unknowns that may be together at a time, 16 to 512; 96 */
     int32_t reserved;     /* 0 */
 } fr_level_fit_config;
 
-/* Bins in order, `count` in each array. `number` rises; where it leaps, bins were left out, as in
- * the middle of a standstill. Pieces shorter than 0.5 s are not used. */
+/* Bins in order, `count` in each array. `number` rises (FR_WRONG_ORDER) and is within 2^50 of zero;
+ * where it leaps, bins were left out, as in the middle of a standstill. Pieces shorter than 0.5 s are
+ * not used. Values are within 1e9 of 0 (FR_BAD_SAMPLE). */
 typedef struct fr_level_bins {
     const int64_t *number;  /* of a bin in the run */
     const double *force;    /* vertical specific force less 1 g, in m/s^2 */
     const double *missing;  /* share of it that was missing and is bridged, 0 to 1 */
     const double *height;   /* of the laser over the road, in m; NaN where it is missing */
-    const double *distance; /* of the encoder, in m; does not fall */
+    const double *distance; /* of the encoder, in m; does not fall (FR_GOES_BACK) */
     const double *speed;    /* in m/s */
     const double *along;    /* acceleration along the road, in m/s^2 */
     size_t count;
@@ -1013,9 +1070,10 @@ FR_API fr_status fr_level_fit(const fr_level_fit_config *config, void *memory, s
  * pitch stays as the last brake has left it; fr_pitch models it there.
  */
 typedef struct fr_level_config {
-    double rate_hz;          /* samples per second, at least 20; no default */
+    double rate_hz;          /* samples per second, 20 to 1e6; no default */
     double metres_per_count; /* of the encoder, at most 10; no default */
-    fr_level_fit_config fit; /* its step follows from the rate */
+    fr_level_fit_config fit; /* its step follows from the rate; here longest_s is 40 or more and
+                                most_travel_m 200 or more */
     int32_t paths;           /* wheel paths, 1 to 4; 2 */
     int32_t back;            /* FR_BACK_REFUSED or FR_BACK_TAKEN; FR_BACK_REFUSED */
     int32_t missing;         /* FR_MISSING_REFUSED, or FR_MISSING_BRIDGED: it does not count in its
@@ -1047,8 +1105,9 @@ FR_API fr_status fr_level_init(void *memory, size_t size, const fr_level_config 
 /* Samples of a bin. */
 FR_API fr_status fr_level_every(const fr_level *level, int64_t *every);
 /* `force` with 1 g in it, in m/s^2, and `height` in m, down to the road, of all wheel paths of a
- * sample, then of the next: count * paths values. At most 20 s at a time. FR_OUTPUT_FULL unless the
- * bins that are ready are taken before: *ready is their number. */
+ * sample, then of the next: count * paths values, within 1e9 of 0 (FR_BAD_SAMPLE). FR_TOO_MANY for more
+ * than 20 s at a time. FR_OUTPUT_FULL unless the bins that are ready are taken before: *ready is their
+ * number. */
 FR_API fr_status fr_level_push(fr_level *level, const fr_real *force, const fr_real *height,
                                const int64_t *counts, size_t count, size_t *ready);
 /* End the run: all bins become ready. */
@@ -1070,9 +1129,10 @@ FR_API fr_status fr_level_take(fr_level *level, fr_level_bin *bins, size_t capac
  * force or a height anywhere in a window, it is 0.
  */
 typedef struct fr_pitch_config {
-    double rate_hz;          /* samples per second, at least 20; no default */
+    double rate_hz;          /* samples per second, 20 to 1e6; no default */
     double metres_per_count; /* of the encoder, at most 10; no default */
-    double front_m;          /* front axle ahead of the middle of the lasers; no default */
+    double front_m;          /* front axle ahead of the middle of the lasers; the three places are
+                                within 100 of 0; no default */
     double rear_m;           /* rear axle ahead of it, at least 0.1 less than that; no default */
     double lever_m;          /* middle of the lasers ahead of that of their accelerometers; 0 */
     double window_s;         /* shared_s to 3600; 600 */
@@ -1092,8 +1152,8 @@ FR_API fr_status fr_pitch_init(void *memory, size_t size, const fr_pitch_config 
                                fr_pitch **out);
 /* Samples of a bin: the middle of bin k is at sample k every + (every - 1) / 2 of the run. */
 FR_API fr_status fr_pitch_every(const fr_pitch *pitch, int64_t *every);
-/* The samples of fr_level_push(), at most window_s at a time. FR_OUTPUT_FULL if they complete a window
- * and bins of the one before are ready and not taken: *ready is their number. */
+/* The samples of fr_level_push(). FR_TOO_MANY for more than window_s at a time, FR_OUTPUT_FULL if they
+ * complete a window and bins of the one before are ready and not taken: *ready is their number. */
 FR_API fr_status fr_pitch_push(fr_pitch *pitch, const fr_real *force, const fr_real *height,
                                const int64_t *counts, size_t count, size_t *ready);
 /* End the run: all bins become ready. What is ready has to be taken before. */

@@ -28,7 +28,7 @@ int main(void)
 CMAKE = """
 cmake_minimum_required(VERSION 3.13)
 project(mine C)
-find_package(floatref REQUIRED)
+find_package(floatref 0.1 REQUIRED)
 add_executable(mine mine.c)
 target_link_libraries(mine floatref::floatref)
 """

@@ -112,7 +112,7 @@ def project(motion, distance, x, interval_m):
     # From the first distance on, as the stage does; the distances are exact, so is their change.
     count = motion.find_points(wide - distance[0], 0.0, interval_m, 0, sample, part)
     y = np.empty(count)
-    motion.read_at(x, sample[:count], part[:count], y)
+    motion.read_at(x[0], x[1:], sample[:count], part[:count], y)
     return y
 
 

@@ -84,7 +84,7 @@ def test_projection(double, plain_sdk, seed, count_m, interval_m, back):
     sample, part = np.empty(10**5, np.int64), np.empty(10**5)
     size = plain_sdk.motion.find_points(wide, 0.0, interval_m, 0, sample, part)
     expected = np.empty(size)
-    plain_sdk.motion.read_at(y, sample[:size], part[:size], expected)
+    plain_sdk.motion.read_at(y[0], y[1:], sample[:size], part[:size], expected)
     made = double.make("projection", interval_m=interval_m, metres_per_count=count_m, rate_hz=RATE)
     status, found, dt = made.push(counts, x, call="push_timed", outputs=2, capacity=size)
     assert status == 0

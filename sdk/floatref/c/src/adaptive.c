@@ -55,7 +55,7 @@ size_t fr_adaptive_size(const fr_adaptive_config *config)
 {
     if (config == NULL || !adaptive_is_possible(config))
         return 0u;
-    return FR_PADDED(fr_adaptive) + fr_travel_window(&config->travel) * sizeof(int64_t);
+    return fr_sized(FR_PADDED(fr_adaptive), fr_travel_window(&config->travel), sizeof(int64_t));
 }
 
 fr_status fr_adaptive_init(void *memory, size_t size, const fr_adaptive_config *config,
@@ -166,6 +166,9 @@ static void run_adaptive(fr_adaptive *adaptive, const fr_real *a, const fr_real 
     fr_real v[FR_BLOCK], c[FR_BLOCK], z[FR_BLOCK];
     motion *m = &adaptive->motion;
     size_t done = 0, made = 0;
+    fr_real nowhere = 0; /* NULL where no point is reached */
+    fr_real *z_out = elevation != NULL ? elevation : &nowhere;
+    fr_real *v_out = speed != NULL ? speed : &nowhere;
     while (done < count) {
         int careful = adaptive->missing == FR_MISSING_BRIDGED || !fr_section_started(&m->height_2);
         size_t most = careful && adaptive->missing == FR_MISSING_REFUSED ? 1u : FR_BLOCK;
@@ -176,7 +179,7 @@ static void run_adaptive(fr_adaptive *adaptive, const fr_real *a, const fr_real 
             move_carefully(m, half, g, a + done, h + done, c, size, z);
         else
             move_quickly(m, half, g, a + done, h + done, c, size, z);
-        made += take_points(adaptive, counts + done, z, v, size, elevation + made, speed + made);
+        made += take_points(adaptive, counts + done, z, v, size, z_out + made, v_out + made);
         done += size;
     }
     fr_travel_keep(&adaptive->travel, ring, counts, count);
@@ -216,6 +219,7 @@ fr_status fr_adaptive_push(fr_adaptive *adaptive, const fr_real *acceleration,
                            const fr_real *height, const int64_t *counts, size_t count,
                            fr_real *elevation, fr_real *speed, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     size_t needed = 0;
     fr_status status = fr_ready(adaptive, ADAPTIVE_MAGIC);
     if (status == FR_OK)
@@ -236,6 +240,7 @@ fr_status fr_adaptive_push(fr_adaptive *adaptive, const fr_real *acceleration,
 fr_status fr_adaptive_finish(fr_adaptive *adaptive, const fr_real *elevation, const fr_real *speed,
                              size_t count, fr_real *profile, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(adaptive, ADAPTIVE_MAGIC);
     if (status == FR_OK)
         status = fr_room(count, profile, capacity, written);

@@ -99,18 +99,21 @@ static fr_status pass_signal(fr_adaptive_set *set, int signal, const fr_real *x,
 fr_status fr_adaptive_set_acceleration(fr_adaptive_set *set, const fr_real *x, const fr_real *speed,
                                        size_t count, fr_real *y, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     return pass_signal(set, FR_ACCELERATION, x, speed, count, y, capacity, written);
 }
 
 fr_status fr_adaptive_set_velocity(fr_adaptive_set *set, const fr_real *x, const fr_real *speed,
                                    size_t count, fr_real *y, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     return pass_signal(set, FR_VELOCITY, x, speed, count, y, capacity, written);
 }
 
 fr_status fr_adaptive_set_height(fr_adaptive_set *set, const fr_real *x, const fr_real *speed,
                                  size_t count, fr_real *y, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     return pass_signal(set, FR_HEIGHT, x, speed, count, y, capacity, written);
 }
 
@@ -131,6 +134,7 @@ fr_status fr_adaptive_set_reverse(fr_adaptive_set *set, const fr_real *elevation
                                   const fr_real *speed, size_t count, fr_real *profile,
                                   size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_reverse(set, elevation, speed, count, profile, capacity, written);
     if (status == FR_OK)
         status = fr_check_speeds(&set->schedule, &set->tangent, speed, count, set->missing);
@@ -149,6 +153,7 @@ fr_status fr_adaptive_set_reverse_over_distance(fr_adaptive_set *set, double int
                                                 size_t count, fr_real *profile, size_t capacity,
                                                 size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_reverse(set, elevation, speed, count, profile, capacity, written);
     if (status == FR_OK && !(fr_above_zero(interval_m) && fr_above_zero(1.0 / interval_m)))
         status = FR_BAD_CONFIG;

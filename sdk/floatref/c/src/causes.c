@@ -8,6 +8,7 @@
 #include "points.h"
 
 #define CAUSES_MAGIC FR_MAGIC(24)
+#define MOST_CAUSES 127u
 #define MOST_WINDOW 1e7
 #define LASTING_CAUSES ((unsigned)FR_CAUSE_DRIFT | (unsigned)FR_CAUSE_SLOW | (unsigned)FR_CAUSE_BRAKING)
 
@@ -44,7 +45,8 @@ static int causes_are_possible(const fr_causes_config *config)
     return fr_above_zero(config->rate_hz) && config->every >= 1 &&
            fr_points_are_possible(config->interval_m, config->metres_per_count) &&
            fr_above_zero(config->slow_mps) && fr_above_zero(config->stopping_time_s) &&
-           fr_above_zero(config->window_s) && window_of_looks(config) <= MOST_WINDOW;
+           fr_above_zero(config->window_s) && window_of_looks(config) <= MOST_WINDOW &&
+           config->reserved == 0;
 }
 
 static uint32_t looks_of(const fr_causes_config *config)
@@ -56,7 +58,7 @@ size_t fr_causes_size(const fr_causes_config *config)
 {
     if (config == NULL || !causes_are_possible(config))
         return 0u;
-    return FR_PADDED(fr_causes) + looks_of(config) * sizeof(int64_t);
+    return fr_sized(FR_PADDED(fr_causes), looks_of(config), sizeof(int64_t));
 }
 
 static void set_marks(marks *m, const fr_causes_config *config)
@@ -165,9 +167,19 @@ static size_t run_causes(fr_causes *causes, const int64_t *counts, const uint8_t
     return made;
 }
 
+/* Whether a sample has a bit that is no cause: fr_validity refuses it with the whole run. */
+static int has_no_cause(const uint8_t *of_samples, size_t count)
+{
+    unsigned all = 0u;
+    for (size_t i = 0; of_samples != NULL && i < count; i++)
+        all |= of_samples[i];
+    return all > MOST_CAUSES;
+}
+
 fr_status fr_causes_push(fr_causes *causes, const int64_t *counts, const uint8_t *of_samples,
                          size_t count, uint8_t *of_points, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     size_t needed = 0;
     fr_status status = fr_ready(causes, CAUSES_MAGIC);
     if (status == FR_OK)
@@ -175,6 +187,8 @@ fr_status fr_causes_push(fr_causes *causes, const int64_t *counts, const uint8_t
     if (status == FR_OK)
         status = fr_check_known_counts(counts, count, FR_BACK_TAKEN,
                                        causes->points.started != 0 ? 0 : INT64_MIN);
+    if (status == FR_OK && has_no_cause(of_samples, count))
+        status = FR_BAD_SAMPLE;
     if (status == FR_OK)
         status = fr_points_needed(&causes->points, counts, count, &needed);
     if (status == FR_OK)

@@ -80,6 +80,8 @@ void fr_frequencies(const fr_schedule *schedule, const fr_real *speed, size_t co
                     fr_real *frequency)
 {
     size_t done = 0;
+    if (count == 0u)
+        return;
     for (; count - done >= FR_GROUP; done += FR_GROUP)
         frequencies_here(*schedule, speed + done, FR_GROUP, frequency + done);
     frequencies_here(*schedule, speed + done, count - done, frequency + done);
@@ -134,6 +136,7 @@ static fr_status check_cut_off(const fr_cut_off_config *config, const fr_real *s
 fr_status fr_cut_off_frequency(const fr_cut_off_config *config, const fr_real *speed, size_t count,
                                fr_real *frequency, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_cut_off(config, speed, count, frequency, capacity, written);
     if (status != FR_OK)
         return status;
@@ -147,6 +150,7 @@ fr_status fr_cut_off_wave_number(const fr_cut_off_config *config, double interva
                                  const fr_real *speed, size_t count, fr_real *wave_number,
                                  size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_cut_off(config, speed, count, wave_number, capacity, written);
     if (status == FR_OK && !fr_above_zero(interval_m))
         status = FR_BAD_CONFIG;

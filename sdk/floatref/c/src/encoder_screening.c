@@ -152,6 +152,7 @@ static fr_status push_counts(fr_encoder_screening *s, const int64_t *counts, con
 fr_status fr_encoder_screening_push(fr_encoder_screening *screening, const int64_t *counts,
                                     size_t count, fr_span *spans, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(screening, ENCODER_MAGIC);
     if (status != FR_OK)
         return status;
@@ -162,6 +163,7 @@ fr_status fr_encoder_screening_push_timed(fr_encoder_screening *screening, const
                                           const int64_t *ticks, size_t count, fr_span *spans,
                                           size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(screening, ENCODER_MAGIC);
     if (status == FR_OK && ticks == NULL)
         status = FR_NULL_POINTER;
@@ -173,6 +175,7 @@ fr_status fr_encoder_screening_push_timed(fr_encoder_screening *screening, const
 fr_status fr_encoder_screening_finish(fr_encoder_screening *screening, fr_span *spans,
                                       size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(screening, ENCODER_MAGIC);
     fr_way from;
     size_t made = 0;

@@ -229,6 +229,7 @@ void fr_filter_run(fr_filter *filter, const fr_real *x, size_t count, fr_real *y
 fr_status fr_filter_push(fr_filter *filter, const fr_real *x, size_t count, fr_real *y,
                          size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(filter, FILTER_MAGIC);
     if (status == FR_OK)
         status = fr_room(count, y, capacity, written);

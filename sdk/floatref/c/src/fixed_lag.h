@@ -129,7 +129,7 @@ typedef struct fr_lag_view {
 } fr_lag_view;
 
 /* How many numbers of 8 bytes the arrays take: 0 if the shape is not possible. */
-size_t fr_lag_numbers(const fr_lag_model *model, const fr_lag_shape *shape);
+uint64_t fr_lag_numbers(const fr_lag_model *model, const fr_lag_shape *shape);
 
 /* Begin with empty memory, all of it cleared. */
 void fr_lag_begin(const fr_lag_view *view, const fr_lag_shape *shape);

@@ -26,6 +26,7 @@ static void pass_whole(fr_filter_config *config, int32_t order, int32_t directio
 fr_status fr_high_pass_profile(const fr_high_pass_profile_config *config, const fr_real *elevation,
                                size_t count, fr_real *filtered, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_filter_config pass = fr_filter_defaults();
     fr_status status = fr_room(count, filtered, capacity, written);
     if (status == FR_OK && config == NULL)

@@ -83,6 +83,7 @@ static fr_status check_call(const fr_high_pass_set *set, int signal, const fr_re
 fr_status fr_high_pass_set_acceleration(fr_high_pass_set *set, const fr_real *x, size_t count,
                                         fr_real *y, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_call(set, FR_ACCELERATION, x, count, y, capacity, written);
     if (status != FR_OK)
         return status;
@@ -95,6 +96,7 @@ fr_status fr_high_pass_set_acceleration(fr_high_pass_set *set, const fr_real *x,
 fr_status fr_high_pass_set_velocity(fr_high_pass_set *set, const fr_real *x, size_t count,
                                     fr_real *y, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_call(set, FR_VELOCITY, x, count, y, capacity, written);
     if (status != FR_OK)
         return status;
@@ -107,6 +109,7 @@ fr_status fr_high_pass_set_velocity(fr_high_pass_set *set, const fr_real *x, siz
 fr_status fr_high_pass_set_height(fr_high_pass_set *set, const fr_real *x, size_t count, fr_real *y,
                                   size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_call(set, FR_HEIGHT, x, count, y, capacity, written);
     if (status != FR_OK)
         return status;
@@ -122,6 +125,7 @@ fr_status fr_high_pass_set_height(fr_high_pass_set *set, const fr_real *x, size_
 fr_status fr_high_pass_set_reverse(fr_high_pass_set *set, const fr_real *elevation, size_t count,
                                    fr_real *profile, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(set, HIGH_PASS_MAGIC);
     if (status == FR_OK)
         status = fr_room(count, profile, capacity, written);

@@ -65,6 +65,7 @@ static void run_constant(fr_trapezoid *sum, fr_real half_step, const fr_real *x,
 fr_status fr_integral_push(fr_integral *integral, const fr_real *x, size_t count, fr_real *y,
                            size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_integral(integral, x, count, y, capacity, written);
     fr_trapezoid sum;
     if (status == FR_OK && !(integral->half_step > 0))
@@ -83,6 +84,7 @@ fr_status fr_integral_push(fr_integral *integral, const fr_real *x, size_t count
 fr_status fr_integral_push_steps(fr_integral *integral, const fr_real *x, const fr_real *time_step,
                                  size_t count, fr_real *y, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_integral(integral, x, count, y, capacity, written);
     fr_trapezoid sum;
     if (status == FR_OK)
@@ -128,6 +130,7 @@ fr_status fr_integral_push_reflecting(fr_integral *integral, const fr_real *velo
                                       const fr_real *time_step, size_t count, fr_real *y,
                                       size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = check_integral(integral, velocity, count, y, capacity, written);
     if (status == FR_OK)
         status = fr_check_samples(height, count, integral->missing);

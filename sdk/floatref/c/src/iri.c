@@ -56,7 +56,7 @@ size_t fr_iri_size(const fr_iri_config *config)
                    fr_above_zero(config->speed_kmh) &&
                    fr_above_zero(config->interval_m / config->speed_kmh);
     uint32_t kept = possible ? points_kept(config) : 0u;
-    return kept == 0u ? 0u : FR_PADDED(fr_iri) + kept * sizeof(fr_real);
+    return kept == 0u ? 0u : fr_sized(FR_PADDED(fr_iri), kept, sizeof(fr_real));
 }
 
 fr_status fr_iri_init(void *memory, size_t size, const fr_iri_config *config, fr_iri **out)
@@ -177,13 +177,15 @@ static size_t drive_all(fr_iri *iri, car *moving, const fr_real *elevation, size
                         fr_real *trace)
 {
     size_t made = 0, done = 0;
+    fr_real nowhere = 0; /* NULL where no sample comes out */
+    fr_real *out = trace != NULL ? trace : &nowhere;
     while (done < count && ready_at(iri, iri->points) == 0u) {
         keep_point(iri, elevation[done]);
-        made += drive_on(iri, moving, trace + made);
+        made += drive_on(iri, moving, out + made);
         done++;
     }
     while (done < count) {
-        size_t size = drive_run(iri, moving, elevation + done, count - done, trace + made);
+        size_t size = drive_run(iri, moving, elevation + done, count - done, out + made);
         done += size;
         made += size;
     }
@@ -193,6 +195,7 @@ static size_t drive_all(fr_iri *iri, car *moving, const fr_real *elevation, size
 fr_status fr_iri_push(fr_iri *iri, const fr_real *elevation, size_t count, fr_real *trace,
                       size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(iri, IRI_MAGIC);
     if (status == FR_OK)
         status = fr_room(0u, trace, capacity, written);
@@ -211,6 +214,7 @@ fr_status fr_iri_push(fr_iri *iri, const fr_real *elevation, size_t count, fr_re
 
 fr_status fr_iri_finish(fr_iri *iri, fr_real *trace, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     size_t made = 0;
     fr_status status = fr_ready(iri, IRI_MAGIC);
     if (status == FR_OK && iri->points <= iri->start)

@@ -13,23 +13,26 @@ static size_t counts_of(uint32_t window, uint32_t delay)
     return (size_t)window + delay + 1u;
 }
 
-static size_t bytes_of(uint32_t window, uint32_t delay, uint32_t readings)
+static uint64_t bytes_of(uint32_t window, uint32_t delay, uint32_t readings)
 {
-    return counts_of(window, delay) * sizeof(int64_t) + delay * sizeof(fr_kalman_sample) +
-           readings * sizeof(fr_kalman_reading);
+    uint64_t counts = (uint64_t)window + delay + 1u;
+    return counts * sizeof(int64_t) + (uint64_t)delay * sizeof(fr_kalman_sample) +
+           (uint64_t)readings * sizeof(fr_kalman_reading);
 }
 
 size_t fr_kalman_engine_room(const fr_kalman_filter_config *config)
 {
     if (config == NULL || !fr_kalman_is_possible(config))
         return 0u;
-    return bytes_of(fr_travel_window(&config->travel), fr_kalman_delay(config),
-                    (uint32_t)config->readings);
+    return fr_sized(0u,
+                    bytes_of(fr_travel_window(&config->travel), fr_kalman_delay(config),
+                             (uint32_t)config->readings),
+                    1u);
 }
 
 size_t fr_kalman_engine_bytes(const fr_kalman_engine *engine)
 {
-    return bytes_of(engine->window, engine->delay, engine->room);
+    return (size_t)bytes_of(engine->window, engine->delay, engine->room);
 }
 
 static fr_kalman_sample *samples_of(const fr_kalman_engine *engine, void *room)

@@ -16,7 +16,7 @@ struct fr_kalman_filter {
 size_t fr_kalman_filter_size(const fr_kalman_filter_config *config)
 {
     size_t room = fr_kalman_engine_room(config);
-    return room > 0u ? FR_PADDED(fr_kalman_filter) + room : 0u;
+    return room > 0u ? fr_sized(FR_PADDED(fr_kalman_filter), room, 1u) : 0u;
 }
 
 fr_status fr_kalman_filter_init(void *memory, size_t size, const fr_kalman_filter_config *config,
@@ -75,6 +75,7 @@ fr_status fr_kalman_filter_push(fr_kalman_filter *filter, const fr_imu *imu, con
                                 const int64_t *counts, size_t count, double *reference_height,
                                 size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(filter, KALMAN_FILTER_MAGIC);
     size_t needed = 0;
     if (status == FR_OK && written != NULL)
@@ -95,6 +96,7 @@ fr_status fr_kalman_filter_push(fr_kalman_filter *filter, const fr_imu *imu, con
 fr_status fr_kalman_filter_finish(fr_kalman_filter *filter, double *reference_height,
                                   size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(filter, KALMAN_FILTER_MAGIC);
     fr_kalman_step step;
     fr_kalman_node node;

@@ -57,7 +57,7 @@ int fr_kalman_is_possible(const fr_kalman_filter_config *config)
            config->late_s <= LATEST_S && fr_one_of(config->gnss, 0, 1) &&
            fr_one_of(config->attitude, 0, 1) && fr_one_of(config->reflects, 0, 1) &&
            fr_one_of(config->missing, FR_MISSING_REFUSED, FR_MISSING_BRIDGED) &&
-           fr_one_of(config->readings, 1, MOST_READINGS);
+           fr_one_of(config->readings, 1, MOST_READINGS) && config->reserved == 0;
 }
 
 uint32_t fr_kalman_delay(const fr_kalman_filter_config *config)

@@ -78,15 +78,15 @@ size_t fr_kalman_size(const fr_kalman_config *config)
 {
     fr_lag_model model = fr_kalman_lag_model();
     fr_lag_shape shape;
-    size_t numbers;
+    uint64_t numbers;
     if (config == NULL || !smoother_is_possible(config))
         return 0u;
     shape = kalman_shape(config);
     numbers = fr_lag_numbers(&model, &shape);
     if (numbers == 0u)
         return 0u;
-    return FR_PADDED(fr_kalman) + fr_kalman_engine_room(&config->filter) +
-           numbers * sizeof(double);
+    size_t engine = fr_sized(FR_PADDED(fr_kalman), fr_kalman_engine_room(&config->filter), 1u);
+    return engine == 0u ? 0u : fr_sized(engine, numbers, sizeof(double));
 }
 
 static int64_t segment_of(const fr_kalman_config *config)
@@ -184,6 +184,7 @@ fr_status fr_kalman_push(fr_kalman *kalman, const fr_imu *imu, const double *hei
                          const int64_t *counts, size_t count, fr_real *elevation, fr_real *sigma,
                          uint8_t *flags, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_lag_output output = {elevation, sigma, flags, 0u};
     fr_kalman_push_of push = {height, counts, count};
     fr_status status = fr_ready(kalman, KALMAN_MAGIC);
@@ -205,6 +206,7 @@ fr_status fr_kalman_push(fr_kalman *kalman, const fr_imu *imu, const double *hei
 fr_status fr_kalman_finish(fr_kalman *kalman, fr_real *elevation, fr_real *sigma, uint8_t *flags,
                            size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_lag_output output = {elevation, sigma, flags, 0u};
     fr_status status = fr_ready(kalman, KALMAN_MAGIC);
     fr_kalman_view view;

@@ -53,11 +53,13 @@ static int pace_is_possible(const fr_lag_pace *pace)
            pace->patience >= 1;
 }
 
-size_t fr_lag_numbers(const fr_lag_model *model, const fr_lag_shape *shape)
+uint64_t fr_lag_numbers(const fr_lag_model *model, const fr_lag_shape *shape)
 {
     if (!pace_is_possible(&shape->pace))
         return 0u;
     fr_lag_sizes sizes = fr_lag_sizes_of(model, shape);
-    return FR_LAG_SECTIONS * (sizes.nodes * sizes.node + sizes.updates * sizes.update) +
-           sizes.marks * sizes.mark + sizes.points * FR_LAG_NUMBERS(fr_lag_point_held);
+    uint64_t nodes = (uint64_t)sizes.nodes * sizes.node;
+    uint64_t updates = (uint64_t)sizes.updates * sizes.update;
+    return FR_LAG_SECTIONS * (nodes + updates) + (uint64_t)sizes.marks * sizes.mark +
+           (uint64_t)sizes.points * FR_LAG_NUMBERS(fr_lag_point_held);
 }

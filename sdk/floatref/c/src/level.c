@@ -85,7 +85,7 @@ static int is_possible_stage(const fr_level_config *c)
            c->fit.most_travel_m >= LEAST_TRAVEL_M &&
            fr_one_of(c->paths, 1, LV_PATHS) &&
            fr_one_of(c->back, FR_BACK_REFUSED, FR_BACK_TAKEN) &&
-           fr_one_of(c->missing, FR_MISSING_REFUSED, FR_MISSING_BRIDGED);
+           fr_one_of(c->missing, FR_MISSING_REFUSED, FR_MISSING_BRIDGED) && c->reserved == 0;
 }
 
 size_t fr_level_size(const fr_level_config *config)
@@ -118,7 +118,7 @@ fr_status fr_level_init(void *memory, size_t size, const fr_level_config *config
 
 fr_status fr_level_every(const fr_level *level, int64_t *every)
 {
-    fr_status status = fr_ready(level, LEVEL_MAGIC);
+    fr_status status = fr_readable(level, LEVEL_MAGIC);
     if (status == FR_OK && every == NULL)
         status = FR_NULL_POINTER;
     if (status == FR_OK)
@@ -161,6 +161,7 @@ static void derive_all(fr_level *level, lv_arrays *a, int at_end)
 fr_status fr_level_push(fr_level *level, const fr_real *force, const fr_real *height,
                         const int64_t *counts, size_t count, size_t *ready)
 {
+    fr_nothing(ready);
     lv_arrays a;
     fr_status status = check_level_push(level, force, height, counts, count, ready);
     if (status == FR_OUTPUT_FULL)
@@ -180,6 +181,7 @@ fr_status fr_level_push(fr_level *level, const fr_real *force, const fr_real *he
 
 fr_status fr_level_finish(fr_level *level, size_t *ready)
 {
+    fr_nothing(ready);
     lv_arrays a;
     fr_status status = fr_ready(level, LEVEL_MAGIC);
     if (status == FR_OK && ready == NULL)
@@ -198,6 +200,7 @@ fr_status fr_level_finish(fr_level *level, size_t *ready)
 
 fr_status fr_level_take(fr_level *level, fr_level_bin *bins, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     lv_arrays a;
     fr_status status = fr_readable(level, LEVEL_MAGIC);
     if (status != FR_OK)

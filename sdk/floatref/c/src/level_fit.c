@@ -170,6 +170,7 @@ fr_status fr_level_fit(const fr_level_fit_config *config, void *memory, size_t s
                        const fr_level_bins *bins, fr_level_result *result, double *pitch,
                        double *sigma_m, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     lv_work work;
     fr_status status;
     if (config == NULL || result == NULL || written == NULL)

@@ -62,7 +62,7 @@ static int is_possible(const fr_level_fit_config *c)
            has_densities(c) && is_within(c->wavelength_m, 1.0, MOST_WAVELENGTH_M) &&
            is_within(c->longest_s, LV_SHORTEST_S, MOST_LENGTH_S) &&
            is_within(c->most_travel_m, 1.0, MOST_TRAVEL_M) && c->most_width >= 2 * LV_PIVOTS &&
-           c->most_width <= 512;
+           c->most_width <= 512 && c->reserved == 0;
 }
 
 /* From the rearmost of laser and axles to the foremost. */

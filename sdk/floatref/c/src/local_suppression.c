@@ -84,6 +84,7 @@ fr_status fr_local_suppression_push(fr_local_suppression *control, const fr_real
                                     const fr_real *speed, size_t count, fr_real *y, size_t capacity,
                                     size_t *written)
 {
+    fr_nothing(written);
     fr_local_suppression c;
     fr_status status = fr_ready(control, SUPPRESSION_MAGIC);
     if (status == FR_OK)

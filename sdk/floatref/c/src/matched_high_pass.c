@@ -89,6 +89,7 @@ fr_status fr_matched_high_pass_push(fr_matched_high_pass *matched, const fr_real
                                     const fr_real *height, const fr_real *cutoff, size_t count,
                                     fr_real *reference_height, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(matched, MATCHED_MAGIC);
     if (status == FR_OK)
         status = fr_room(count, reference_height, capacity, written);

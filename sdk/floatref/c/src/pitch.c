@@ -76,7 +76,7 @@ static int is_possible_pitch(const fr_pitch_config *c)
            c->window_s >= c->shared_s && c->window_s <= MOST_WINDOW_S &&
            fr_one_of(c->paths, 1, PT_PATHS) &&
            fr_one_of(c->back, FR_BACK_REFUSED, FR_BACK_TAKEN) &&
-           fr_one_of(c->missing, FR_MISSING_REFUSED, FR_MISSING_BRIDGED);
+           fr_one_of(c->missing, FR_MISSING_REFUSED, FR_MISSING_BRIDGED) && c->reserved == 0;
 }
 
 size_t fr_pitch_size(const fr_pitch_config *config)
@@ -111,7 +111,7 @@ fr_status fr_pitch_init(void *memory, size_t size, const fr_pitch_config *config
 
 fr_status fr_pitch_every(const fr_pitch *pitch, int64_t *every)
 {
-    fr_status status = fr_ready(pitch, PITCH_MAGIC);
+    fr_status status = fr_readable(pitch, PITCH_MAGIC);
     if (status == FR_OK && every == NULL)
         status = FR_NULL_POINTER;
     if (status == FR_OK)
@@ -165,6 +165,7 @@ static void end_pitch_window(fr_pitch *pitch, pt_arrays *a, int32_t count)
 fr_status fr_pitch_push(fr_pitch *pitch, const fr_real *force, const fr_real *height,
                         const int64_t *counts, size_t count, size_t *ready)
 {
+    fr_nothing(ready);
     pt_arrays a;
     fr_status status = check_pitch_push(pitch, force, height, counts, count, ready);
     if (status == FR_OUTPUT_FULL)
@@ -185,6 +186,7 @@ fr_status fr_pitch_push(fr_pitch *pitch, const fr_real *force, const fr_real *he
 
 fr_status fr_pitch_finish(fr_pitch *pitch, size_t *ready)
 {
+    fr_nothing(ready);
     pt_arrays a;
     fr_status status = fr_ready(pitch, PITCH_MAGIC);
     if (status == FR_OK && ready == NULL)
@@ -209,6 +211,7 @@ fr_status fr_pitch_finish(fr_pitch *pitch, size_t *ready)
 
 fr_status fr_pitch_take(fr_pitch *pitch, double *sin_pitch, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     pt_arrays a;
     fr_status status = fr_readable(pitch, PITCH_MAGIC);
     if (status != FR_OK)

@@ -102,6 +102,7 @@ static fr_status push_points(fr_projection *projection, const int64_t *counts, c
 fr_status fr_projection_push(fr_projection *projection, const int64_t *counts, const fr_real *x,
                              size_t count, fr_real *y, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(projection, PROJECTION_MAGIC);
     if (status != FR_OK)
         return status;
@@ -112,6 +113,7 @@ fr_status fr_projection_push_timed(fr_projection *projection, const int64_t *cou
                                    const fr_real *x, size_t count, fr_real *y, fr_real *time_step,
                                    size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(projection, PROJECTION_MAGIC);
     if (status == FR_OK && !(projection->rate_hz > 0.0))
         status = FR_BAD_CONFIG;

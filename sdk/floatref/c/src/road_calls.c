@@ -33,14 +33,24 @@ static fr_status check_sensor(const fr_real *x, size_t count, int32_t missing)
     return status;
 }
 
+/* The run begins at its first height, which the smoother takes for the level of all others. */
+static fr_status check_heights(const fr_road_prior *road, const fr_road_input *input)
+{
+    fr_status status = check_sensor(input->height, input->count, road->missing);
+    int begins = status == FR_OK && road->nodes == 0 && input->count > 0u;
+    return begins && fr_missing(input->height[0]) ? FR_BAD_SAMPLE : status;
+}
+
 static fr_status check_input(const fr_road_prior *road, const fr_road_input *input, size_t *needed)
 {
     int64_t before = road->nodes > 0 ? road->furthest : INT64_MIN;
     fr_status status = check_sensor(input->acceleration, input->count, road->missing);
     if (status == FR_OK)
-        status = check_sensor(input->height, input->count, road->missing);
+        status = check_heights(road, input);
     if (status == FR_OK)
-        status = fr_check_counts(input->counts, input->count, road->back, before);
+        status = road->missing == FR_MISSING_BRIDGED
+                     ? fr_check_known_counts(input->counts, input->count, road->back, before)
+                     : fr_check_counts(input->counts, input->count, road->back, before);
     if (status == FR_OK)
         status = check_share(input->level, input->count);
     if (status == FR_OK)
@@ -81,6 +91,7 @@ fr_status fr_road_prior_push(fr_road_prior *road, const fr_real *acceleration,
                              fr_real *elevation, fr_real *sigma, uint8_t *flags, size_t capacity,
                              size_t *written)
 {
+    fr_nothing(written);
     fr_road_input input = {acceleration, height, counts, NULL, NULL, count};
     fr_lag_output output = {elevation, sigma, flags, 0u};
     return push_road(road, &input, &output, capacity, written);
@@ -92,6 +103,7 @@ fr_status fr_road_prior_push_levelled(fr_road_prior *road, const fr_real *accele
                                       size_t count, fr_real *elevation, fr_real *sigma,
                                       uint8_t *flags, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_road_input input = {acceleration, height, counts, levelled, missing, count};
     fr_lag_output output = {elevation, sigma, flags, 0u};
     return push_road(road, &input, &output, capacity, written);
@@ -100,6 +112,7 @@ fr_status fr_road_prior_push_levelled(fr_road_prior *road, const fr_real *accele
 fr_status fr_road_prior_finish(fr_road_prior *road, fr_real *elevation, fr_real *sigma,
                                uint8_t *flags, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_lag_output output = {elevation, sigma, flags, 0u};
     fr_status status = fr_ready(road, FR_ROAD_MAGIC);
     if (status != FR_OK)

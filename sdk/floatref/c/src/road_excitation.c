@@ -10,6 +10,8 @@
 /* Standard deviation of the Gaussian: half of the amplitude at 6 Hz; beyond REACH of it nothing. */
 #define SPREAD_S 0.03
 #define REACH_OF_SPREAD 4.0
+/* A brake is forgotten after so long without the encoder. */
+#define FADE_S 1.0
 
 int32_t fr_excitation_reach(double interval_s)
 {
@@ -60,6 +62,7 @@ void fr_excitation_begin(fr_excitation *excitation, double *room, double interva
                          double damping)
 {
     excitation->reach = fr_excitation_reach(interval_s);
+    excitation->fade = exp(-interval_s / FADE_S);
     fill_weights(room, excitation->reach, interval_s);
     fill_response(excitation->by, hz, damping, interval_s);
 }
@@ -99,6 +102,8 @@ void fr_excitation_take(fr_excitation *excitation, const double *room, int64_t k
     double a = 0.0, value = excitation->value, rate = excitation->rate, latest = excitation->latest;
     for (int32_t j = -excitation->reach; j <= excitation->reach; j++)
         a += room[j + excitation->reach] * place_beyond(excitation, room, k + j);
+    if (fr_missing_number(a))
+        a = excitation->fade * latest;
     excitation->value = by[0][0] * value + by[0][1] * rate + by[0][2] * latest + by[0][3] * a;
     excitation->rate = by[1][0] * value + by[1][1] * rate + by[1][2] * latest + by[1][3] * a;
     excitation->latest = a;

@@ -45,7 +45,7 @@ static void hand_over(fr_road_prior *road, const fr_road_waiting *at, const fr_r
                       int32_t leapt, fr_lag_output *output)
 {
     fr_lag_view view = fr_road_view(road);
-    fr_lag_node_end end = {0.0, 0.0, node->rise, node->climb, at->place_m, road->largest,
+    fr_lag_node_end end = {0.0, 0.0, node->rise, node->climb, at->distance_m, road->largest,
                            NULL, at->points, leapt ? FR_POINT_LEAP : 0, ends_segment(road)};
     end.height = road->filter.x[ROAD_R];
     end.velocity = road->filter.x[ROAD_V];
@@ -57,6 +57,16 @@ static void hand_over(fr_road_prior *road, const fr_road_waiting *at, const fr_r
         fr_lag_release(&view, output);
 }
 
+/* The travel to a node; where the encoder does not give it, that to the node before. */
+static double travel_to(fr_road_prior *road, const fr_road_waiting *at)
+{
+    double travel = at->place_m - road->place_m;
+    if (road->filtered > 0 && travel == travel)
+        road->pace_m = fmax(travel, 0.0);
+    road->place_m = at->place_m;
+    return road->pace_m;
+}
+
 /* Filter a node with what is known of it by now. */
 static void filter_node(fr_road_prior *road, const fr_road_waiting *at, fr_road_ends *ends,
                         fr_lag_output *output)
@@ -64,7 +74,7 @@ static void filter_node(fr_road_prior *road, const fr_road_waiting *at, fr_road_
     fr_road_node node;
     double elevation;
     int32_t leapt;
-    ends->travel = road->filtered > 0 ? fmax(at->place_m - road->place_m, 0.0) : 0.0;
+    ends->travel = travel_to(road, at);
     ends->seen = at->seen;
     ends->missing = at->missing;
     ends->span = at->span;
@@ -77,7 +87,6 @@ static void filter_node(fr_road_prior *road, const fr_road_waiting *at, fr_road_
     elevation = road->filter.x[ROAD_R] - at->seen;
     fr_spectrum_add(&road->spectrum, elevation, ends->travel, node.gain[ROAD_R] * node.error,
                     node.gain[ROAD_V] * node.error);
-    road->place_m = at->place_m;
 }
 
 void fr_road_filter_next(fr_road_prior *road, fr_lag_output *output)
@@ -104,10 +113,13 @@ static void filter_last(fr_road_prior *road, fr_lag_output *output)
     const fr_road_motion *motion = &road->motion;
     fr_road_ends ends = {road->filter.leaning, road->filter.tilting, road->filter.along,
                          0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0};
-    fr_road_waiting at = {0.0, motion->velocity, motion->height, 0.0, NAN, 0.0, 0.0,
+    fr_road_waiting at = {0.0, motion->velocity, motion->height, 0.0, NAN, 0.0, 0.0, 0.0,
                           road->progress.reached, FR_LAG_MARK, 0};
     at.span = motion->steps * road->step;
-    at.place_m = (double)(road->count - road->progress.points.origin) * road->metres_per_count;
+    at.distance_m = (double)(road->count - road->progress.points.origin) * road->metres_per_count;
+    at.place_m = at.distance_m;
+    /* Behind a place that is not known, no travel is. */
+    road->pace_m = 0.0;
     filter_node(road, &at, &ends, output);
 }
 

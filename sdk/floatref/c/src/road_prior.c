@@ -117,10 +117,10 @@ size_t fr_road_prior_size(const fr_road_prior_config *config)
     if (config == NULL || !stream_is_possible(config) || !model_is_possible(config))
         return 0u;
     fr_lag_shape shape = shape_of(config);
-    size_t numbers = fr_lag_numbers(&fr_road_lag_model, &shape);
+    uint64_t numbers = fr_lag_numbers(&fr_road_lag_model, &shape);
     numbers += fr_excitation_numbers(shape.pace.delay);
-    numbers += ((size_t)shape.pace.delay + 1u) * FR_WAITING_NUMBERS;
-    return FR_PADDED(fr_road_prior) + numbers * sizeof(double);
+    numbers += ((uint64_t)shape.pace.delay + 1u) * FR_WAITING_NUMBERS;
+    return fr_sized(FR_PADDED(fr_road_prior), numbers, sizeof(double));
 }
 
 static fr_road_model model_of(const fr_road_prior_config *c)

@@ -19,7 +19,8 @@ enum { FR_QUIET_SECONDS = 4 };
 /* A node that waits for the encoder. */
 typedef struct fr_road_waiting {
     double span, once, twice; /* integrals of the acceleration over the span before */
-    double place_m, seen, missing, level;
+    double place_m, seen, missing, level; /* place_m: NaN where travel to it is not known */
+    double distance_m;                    /* by the last count that there was */
     int64_t points; /* reached before it */
     int32_t kind, anew;
 } fr_road_waiting;
@@ -33,6 +34,7 @@ typedef struct fr_road_motion {
     int32_t lost;                    /* samples without an acceleration since the node */
     int32_t flags;                   /* of the next point */
     int32_t height_missing;          /* whether the last sample had none */
+    int32_t uncounted;               /* samples without a count since the node */
 } fr_road_motion;
 
 /* What decides how many points come out: counts alone. */
@@ -53,13 +55,14 @@ struct fr_road_prior {
     int64_t segment;     /* samples of a segment, which ends with a mark */
     int64_t nodes;       /* that samples have made */
     int64_t filtered;    /* of these */
-    int64_t count;       /* the last one of the encoder */
+    int64_t count;       /* the last one of the encoder that there was */
     int64_t furthest;    /* the largest */
     double step, gravity, metres_per_count;
     double reading;      /* least variance of a reading */
     double most_share;   /* of the bend, above which a 1-sigma is too large */
     double largest;      /* that 1-sigma at present */
-    double place_m;      /* of the last node that is filtered */
+    double place_m;      /* of the last node that is filtered, NaN where not known */
+    double pace_m;       /* travel to that node */
     double seconds_m[FR_QUIET_SECONDS + 1]; /* distances at whole seconds, the latest first */
     fr_road_motion motion;
     fr_road_progress progress;

@@ -44,12 +44,14 @@ fr_status fr_road_foresee(const fr_road_prior *road, const int64_t *counts, size
     return FR_OK;
 }
 
-/* Speeds of the last four seconds at a whole second: whether they were the same. */
+/* Speeds of the last four seconds at a whole second: whether they are known and were the same. */
 static int32_t is_steady(const fr_road_prior *road)
 {
     double least = HUGE_VAL, most = -HUGE_VAL;
     for (int k = 0; k < FR_QUIET_SECONDS; k++) {
         double speed = road->seconds_m[k] - road->seconds_m[k + 1];
+        if (fr_missing_number(speed))
+            return 0;
         least = fmin(least, speed);
         most = fmax(most, speed);
     }
@@ -79,22 +81,24 @@ static void make_node(fr_road_prior *road, const fr_road_input *input, size_t i)
 {
     fr_road_motion *motion = &road->motion;
     fr_road_waiting *at = fr_road_waiting_at(road, road->nodes);
-    int64_t gone = input->counts[i] - road->progress.points.origin;
+    int64_t gone = road->count - road->progress.points.origin;
     at->span = motion->steps * road->step;
     at->once = motion->velocity;
     at->twice = motion->height;
-    at->place_m = (double)gone * road->metres_per_count;
+    at->distance_m = (double)gone * road->metres_per_count;
+    at->place_m = motion->uncounted > 0 ? (double)NAN : at->distance_m;
     at->seen = (double)input->height[i];
     at->missing = fmax(value_of(input->share, i), (double)motion->lost / road->sub_block);
     at->level = value_of(input->level, i);
     at->points = road->progress.reached;
-    at->anew = begins_anew(road, at->place_m);
+    at->anew = begins_anew(road, input->counts[i] == FR_NO_COUNT ? (double)NAN : at->distance_m);
     at->kind = clock_node(&road->progress, road);
     fr_excitation_add(&road->excitation, fr_road_room(road), at->place_m);
     motion->height = 0.0;
     motion->velocity = 0.0;
     motion->steps = 0;
     motion->lost = 0;
+    motion->uncounted = 0;
     road->nodes++;
 }
 
@@ -131,6 +135,21 @@ static void sum_sample(fr_road_prior *road, const fr_road_input *input, size_t i
         motion->flags |= FR_POINT_MISSING;
     }
     integrate(road, fr_missing(a) ? 0.0 : (double)a - road->gravity);
+}
+
+/* Of a count that is missing the last one stays, and what is travelled up to the next node is not
+ * known: the encoder has leapt, or lost counts. */
+static void count_sample(fr_road_prior *road, int64_t count)
+{
+    fr_road_motion *motion = &road->motion;
+    if (count == FR_NO_COUNT) {
+        motion->uncounted++;
+        motion->flags |= FR_POINT_MISSING;
+        return;
+    }
+    if (road->nodes == 0 || count > road->furthest)
+        road->furthest = count;
+    road->count = count;
 }
 
 static void put_point(fr_road_prior *road, double elevation, double since, int32_t missing)
@@ -172,6 +191,7 @@ static void pass_sample(fr_road_prior *road, const fr_road_input *input, size_t 
     int32_t missing_before = motion->height_missing;
     int64_t whole;
     fr_points_begin(&road->progress.points, input->counts[i]);
+    count_sample(road, input->counts[i]);
     sum_sample(road, input, i);
     whole = take_points_between(road, input->counts[i], missing_before);
     if (road->progress.until == 0) {
@@ -183,10 +203,6 @@ static void pass_sample(fr_road_prior *road, const fr_road_input *input, size_t 
     motion->elevation = motion->height - motion->seen;
     for (; whole > 0; whole--)
         put_point(road, motion->elevation, motion->steps * road->step, motion->height_missing);
-    if (road->nodes == 1 && road->motion.steps == 0)
-        road->furthest = input->counts[i];
-    road->furthest = input->counts[i] > road->furthest ? input->counts[i] : road->furthest;
-    road->count = input->counts[i];
 }
 
 void fr_road_samples(fr_road_prior *road, const fr_road_input *input, fr_lag_output *output)

@@ -59,7 +59,7 @@ static int saturation_is_possible(const fr_saturation_config *config)
            config->quantum >= 0.0 && fr_finite(config->range_least) &&
            fr_finite(config->range_greatest) && config->range_least < config->range_greatest &&
            fr_finite(config->rest_mps2) && fr_above_zero(config->outermost_mps2) &&
-           fr_one_of(config->farthest, 1, MOST_AHEAD);
+           fr_one_of(config->farthest, 1, MOST_AHEAD) && config->reserved == 0;
 }
 
 size_t fr_saturation_size(const fr_saturation_config *config)
@@ -217,6 +217,7 @@ static size_t most_spans(const fr_saturation *s, size_t count)
 fr_status fr_saturation_push(fr_saturation *saturation, const fr_real *x, size_t count,
                              fr_span *spans, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(saturation, SATURATION_MAGIC);
     if (status == FR_OK && written == NULL)
         status = FR_NULL_POINTER;
@@ -241,6 +242,7 @@ fr_status fr_saturation_push(fr_saturation *saturation, const fr_real *x, size_t
 fr_status fr_saturation_finish(fr_saturation *saturation, fr_span *spans, size_t capacity,
                                size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(saturation, SATURATION_MAGIC);
     if (status == FR_OK && written == NULL)
         status = FR_NULL_POINTER;

@@ -102,6 +102,7 @@ fr_status fr_screening_push(fr_screening *screening, const fr_real *x, const fr_
                             const int64_t *counts, size_t count, fr_span *spans, size_t capacity,
                             size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(screening, SCREENING_MAGIC);
     if (status == FR_OK && written == NULL)
         status = FR_NULL_POINTER;
@@ -126,6 +127,7 @@ fr_status fr_screening_push(fr_screening *screening, const fr_real *x, const fr_
 fr_status fr_screening_finish(fr_screening *screening, fr_span *spans, size_t capacity,
                               size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(screening, SCREENING_MAGIC);
     if (status == FR_OK && written == NULL)
         status = FR_NULL_POINTER;

@@ -17,13 +17,13 @@ const char *fr_status_text(fr_status status)
         "the memory is too small; give as many bytes as the size function says",
         "the memory is not aligned; start it at a multiple of FR_ALIGNMENT bytes",
         "the memory holds no object of this kind and build; initialize it first",
-        "the call is out of order; after the end of a run initialize a new object",
+        "the call is out of order, or has no value yet; after the end of a run initialize a new object",
         "a setting is out of its range; start from the defaults and set what has no default",
         "a sample is infinite, missing or out of its range; repair it and push again",
         "a cut-off is not within zero to half the sampling rate; give the speed in m/s",
         "the encoder counts go back; push every chunk once, and the farthest count so far",
         "the output has no room; give as many samples as *written says",
-        "more samples than memory can hold; the count has run over",
+        "more samples than one push may have; push fewer, or see whether the count has run over",
         "not all signals of the set have passed; the motion of the vehicle would not cancel",
         "signals of one set were given different speeds; give all of them the same",
         "the sample of the GNSS reading has been filtered, or has one; raise late_s, or leave it out",
@@ -47,7 +47,7 @@ size_t fr_real_size(void)
 fr_status fr_place(void *memory, size_t size, const void *config, const void *out, size_t needed,
                    uint32_t magic)
 {
-    fr_head head = {0u, FR_STATE_RUNNING};
+    fr_head head = {0u, FR_SAVED_BY, FR_STATE_RUNNING};
     if (memory == NULL || config == NULL || out == NULL)
         return FR_NULL_POINTER;
     if (needed == 0u)
@@ -70,7 +70,7 @@ fr_status fr_ready(const void *object, uint32_t magic)
     if ((uintptr_t)object % FR_ALIGNMENT != 0u)
         return FR_MISALIGNED;
     (void)memcpy(&head, object, sizeof head);
-    if (head.magic != magic)
+    if (head.magic != magic || head.version != FR_SAVED_BY)
         return FR_BAD_OBJECT;
     return head.state == FR_STATE_RUNNING ? FR_OK : FR_WRONG_ORDER;
 }

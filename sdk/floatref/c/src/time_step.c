@@ -39,6 +39,7 @@ fr_status fr_time_step_init(void *memory, size_t size, const fr_time_step_config
 fr_status fr_time_step_push(fr_time_step *timer, const int64_t *ticks, size_t count,
                             fr_real *time_step, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(timer, TIME_STEP_MAGIC);
     if (status == FR_OK)
         status = fr_room(count, time_step, capacity, written);

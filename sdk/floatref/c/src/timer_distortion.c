@@ -47,6 +47,7 @@ fr_status fr_timer_distortion_steps(const fr_timer_distortion_config *config,
                                     const fr_real *time_step, size_t count, fr_real *adjusted,
                                     size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = config == NULL ? FR_NULL_POINTER : FR_OK;
     if (status == FR_OK &&
         !(fr_above_zero(config->interval_m) && fr_above_zero(config->slow_speed_mps) &&

@@ -175,7 +175,7 @@ void fr_travel_keep(fr_travel *travel, int64_t *ring, const int64_t *counts, siz
 size_t fr_travel_speed_size(const fr_travel_speed_config *config)
 {
     uint32_t window = config == NULL ? 0u : fr_travel_window(config);
-    return window == 0u ? 0u : FR_PADDED(fr_travel_speed) + window * sizeof(int64_t);
+    return window == 0u ? 0u : fr_sized(FR_PADDED(fr_travel_speed), window, sizeof(int64_t));
 }
 
 fr_status fr_travel_speed_init(void *memory, size_t size, const fr_travel_speed_config *config,
@@ -193,6 +193,7 @@ fr_status fr_travel_speed_init(void *memory, size_t size, const fr_travel_speed_
 fr_status fr_travel_speed_push(fr_travel_speed *travel, const int64_t *counts, size_t count,
                                fr_real *speed, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(travel, TRAVEL_MAGIC);
     if (status == FR_OK)
         status = fr_room(count, speed, capacity, written);

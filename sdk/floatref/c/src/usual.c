@@ -32,7 +32,7 @@ fr_usual_config fr_usual_defaults(void)
 
 size_t fr_usual_size(const fr_usual_config *config)
 {
-    if (config == NULL || !fr_one_of(config->longest, 2, MOST_LONGEST))
+    if (config == NULL || !fr_one_of(config->longest, 2, MOST_LONGEST) || config->reserved != 0)
         return 0u;
     return FR_PADDED(fr_usual) + (size_t)config->longest * sizeof(uint32_t);
 }

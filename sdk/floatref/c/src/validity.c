@@ -78,6 +78,7 @@ static void spread_before(const extension *reach, size_t count, size_t run_in, u
 fr_status fr_validity(const fr_validity_config *config, const uint8_t *causes, size_t count,
                       uint8_t *valid, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_room(count, valid, capacity, written);
     if (status == FR_OK && (config == NULL || (count > 0u && causes == NULL)))
         status = FR_NULL_POINTER;

@@ -194,6 +194,7 @@ static void run_varying(fr_varying *filter, const fr_real *x, const fr_real *cut
 fr_status fr_varying_push(fr_varying *filter, const fr_real *x, const fr_real *cutoff, size_t count,
                           fr_real *y, size_t capacity, size_t *written)
 {
+    fr_nothing(written);
     fr_status status = fr_ready(filter, VARYING_MAGIC);
     if (status == FR_OK)
         status = fr_room(count, y, capacity, written);

@@ -9,6 +9,7 @@ import pytest
 
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
 from floatref.stages.signals import LEVELLED, MISSING_SHARE
+from floatref.values.arrays import Flag
 from floatref.values.block import Axis, Block, Header, join_blocks
 from floatref.values.channels import ChannelId
 
@@ -40,11 +41,13 @@ class Drive:
     def distance(self):
         return (self.counts - self.counts[0]) * COUNT_M
 
-    def at_points(self, interval_m):
-        """Return the samples at which points lie, the first that has reached each."""
+    def at_points(self, interval_m, lost=slice(0)):
+        """Return the samples at which points lie, the first that has a count and reached each."""
         last = int((self.distance[-1] + 1e-6 * interval_m) / interval_m)
         places = np.arange(last + 1) * interval_m - 1e-6 * interval_m
-        return np.searchsorted(self.distance, places)
+        reached = self.distance
+        reached[lost] = -np.inf
+        return np.searchsorted(np.maximum.accumulate(reached), places)
 
 
 def travelled(speed, rate):
@@ -144,6 +147,7 @@ def smoothed(road):
 
 UP, RANGE = ChannelId("vertical_acceleration", "left"), ChannelId("height", "left")
 HEIGHT, SIGMA = ChannelId("floating_reference_height", "left"), ChannelId("elevation_sigma", "left")
+ENCODER = ChannelId("distance")
 SHARES = {"levelled": ChannelId(LEVELLED), "missing": ChannelId(MISSING_SHARE)}
 
 
@@ -151,19 +155,22 @@ SHARES = {"levelled": ChannelId(LEVELLED), "missing": ChannelId(MISSING_SHARE)}
 def of_sdk():
     """Return what runs a drive through the SDK's smoother: points with elevation, 1-sigma, flags.
 
-    By default nothing comes out before the end of the run.
+    By default nothing comes out before the end of the run. The encoder gives no travel in ``lost``.
     """
 
-    def run(drive, interval_m=0.25, constants=None, wait=True, **shares):
-        values = {UP: drive.a, RANGE: drive.h, ChannelId("distance"): drive.distance}
+    def run(drive, interval_m=0.25, constants=None, wait=True, lost=slice(0), **shares):
+        distance, marks = np.array(drive.distance), np.zeros(drive.a.size, np.uint8)
+        distance[lost], marks[lost] = np.nan, np.uint8(Flag.SLOW)
+        values = {UP: drive.a, RANGE: drive.h, ENCODER: distance}
         values |= {SHARES[name]: x for name, x in shares.items()}
         waiting = {"tolerance_m": 0.0, "waiting_s": 1e9, "longest_s": 1e9} if wait else {}
         stage = RoadPriorSmoother(constants or RoadPrior(), **waiting)
         rate = Fraction(drive.rate).limit_denominator(1000)
         stage.start(Header(Axis.TIME, 1 / drive.rate, 0.0, rate, frozenset(values), ("left",)))
-        parts = [stage.push(Block(0, values)), *stage.finish()]
+        marked = {ENCODER: marks} if marks.any() else {}
+        parts = [stage.push(Block(0, values, flags=marked)), *stage.finish()]
         made = join_blocks([part for part in parts if len(part)])
-        at = drive.at_points(interval_m)
+        at = drive.at_points(interval_m, lost)
         flags = made.flags.get(HEIGHT, np.zeros(drive.a.size, np.uint8))
         return Points((made[HEIGHT] - drive.h)[at], made[SIGMA][at], flags[at])
 

@@ -11,12 +11,13 @@ SETTINGS = {"lag_s": 1.5, "node_rate_hz": 50.0, "missing": 1}
 SEEDS = st.integers(0, 2**32 - 1)
 
 
-def drawn(drives, seed):
-    """Return 15 s with a stop, some samples of both sensors missing."""
+def drawn(drives, seed, uncounted=9):
+    """Return 15 s with a stop, some samples of all sensors missing."""
     v = drives.speeds(LENGTH / RATE, RATE, 9.0, 5.0, 3.0)
     drive, rng = drives.heaving(RATE, drives.travelled(v, RATE), seed), np.random.default_rng(seed)
     for x in (drive.a, drive.h):
-        x[rng.integers(0, LENGTH, 9)] = np.nan
+        x[rng.integers(1, LENGTH, 9)] = np.nan
+    drive.counts[rng.integers(1, LENGTH, uncounted)] = -(2**63)
     return drive
 
 
@@ -113,7 +114,7 @@ def test_without_room_the_call_says_how_much_it_needs(drives, road):
 
 
 def test_null_pointers_are_refused(drives, road):
-    drive = drawn(drives, 3)
+    drive = drawn(drives, 3, uncounted=0)
     made, ffi = road(drive, **SETTINGS), road(drive).library.ffi
     arrays = [made.library.array(x) for x in (drive.a, drive.h, drive.counts)]
     made.push(drive, 0, 1000)
@@ -142,3 +143,14 @@ def test_a_run_of_a_few_samples_ends(drives, road, count):
     points = made.take("finish")
     assert points.flags.size == (drive.at_points(0.25) < count).sum()
     assert np.isfinite([points.elevation, points.sigma]).all()
+
+
+def test_the_first_height_is_never_missing(drives, road):
+    drive = drives.heaving(100.0, drives.travelled(np.full(400, 9.0), 100.0), 3)
+    drive.h[0] = np.nan
+    made = road(drive, lag_s=4.0, missing=1)
+    before = made.made.memory.copy()
+    status, _ = made.call("push", drive.a, drive.h, drive.counts)
+    assert status == "FR_BAD_SAMPLE"
+    assert (made.made.memory == before).all()
+    made.push(drive, 1)
