@@ -10,7 +10,7 @@
 
 #include "c_draws.h"
 
-enum { LARGEST = 1 << 23, CALLS = 64, KINDS = 22, LEVEL = 20, PITCH = 21 };
+enum { STALE = 77777, LARGEST = 1 << 23, CALLS = 67, KINDS = 22, LEVEL = 20, PITCH = 21 };
 
 typedef union any_config {
     fr_filter_config filter;
@@ -219,11 +219,13 @@ static fr_status call_profile(int which, arrays *a)
     fr_cross_correlation_config lags = {0.1, 0.5};
     fr_high_pass_profile_config display = {0.1, number()};
     fr_agreement agreement;
+    fr_seam_config seam = {0.1, number(), number()};
     validity.interval_m = number();
     validity.drift_m = number();
     switch (which) {
     case 51: return fr_validity(&validity, a->flags, a->count, a->b, a->capacity, &a->written);
     case 52: return fr_cross_correlation(&lags, a->x, a->h, a->count, &agreement);
+    case 64: return fr_seam(&seam, draw(1000), draw(2000), a->x, a->count);
     default: return fr_high_pass_profile(&display, a->x, a->count, a->y, a->capacity, &a->written);
     }
 }
@@ -241,14 +243,17 @@ static fr_status call(int which, void *o, arrays *a)
     case 16: return fr_causes_push(o, a->n, draw(9) ? a->flags : NULL, n, a->b, room, w);
     case 17: return fr_saturation_push(o, a->x, n, a->spans, room, w);
     case 18: return fr_encoder_screening_push(o, a->n, n, a->spans, room, w);
-    case 19: return fr_usual_push(o, a->x, n);
+    case 19: return draw(4) ? fr_usual_push(o, a->x, n) : fr_usual_push_counts(o, a->n, n);
+    case 65: return fr_usual_push_counts(o, a->n, n);
+    case 66: return fr_encoder_screening_push_timed(o, a->n, a->n, n, a->spans, room, w);
     case 47: return fr_causes_finish(o, a->b, n < room ? n : room);
     case 48: return fr_saturation_finish(o, a->spans, room, w);
     case 49: return fr_encoder_screening_finish(o, a->spans, room, w);
     case 50: return fr_usual_value(o, draw(9) ? &usual : NULL);
     case 51:
     case 52:
-    case 53: return call_profile(which, a);
+    case 53:
+    case 64: return call_profile(which, a);
     case 12: return fr_screening_push(o, a->x, draw(9) ? a->h : NULL, a->n, n, a->spans, room, w);
     case 30: return fr_screening_finish(o, a->spans, room, w);
     case 31: return fr_high_pass_set_velocity(o, a->x, n, a->y, room, w);
@@ -317,6 +322,29 @@ static int fail(const char *what, int kind, int which)
     return 1;
 }
 
+/* The same with NULL in place of arrays that have no sample: they need no memory. */
+static arrays without_empty(const arrays *a)
+{
+    arrays given = *a;
+    if (a->count == 0) {
+        given.x = given.h = given.f = given.s = given.p = NULL;
+        given.n = NULL;
+    }
+    if (a->capacity == 0) {
+        given.y = given.z = NULL;
+        given.b = NULL;
+        given.spans = NULL;
+        given.heights = NULL;
+    }
+    return given;
+}
+
+/* Whether a refused call has left a number written; a call without one leaves it as it was. */
+static int is_stale(fr_status status, size_t written)
+{
+    return status != FR_OUTPUT_FULL && written != 0 && written != STALE;
+}
+
 /* One push into an object of `size` bytes, which may be moved; 1 if a refusal changed something. */
 static int push_once(int kind, void **object, size_t size, int64_t *counts, long *done)
 {
@@ -327,11 +355,17 @@ static int push_once(int kind, void **object, size_t size, int64_t *counts, long
         which = draw(9) ? 56 : 57;
     arrays a = drawn_arrays(counts);
     unsigned char *before = malloc(size);
-    fr_real *y = malloc(a.capacity * sizeof *y + (a.capacity == 0));
+    fr_real *y = malloc(2 * a.capacity * sizeof *y + (a.capacity == 0)), *z = y + a.capacity;
     memcpy(before, *object, size);
     memcpy(y, a.y, a.capacity * sizeof *y);
-    if (call(which, *object, &a) != FR_OK)
-        wrong = memcmp(before, *object, size) != 0 || memcmp(y, a.y, a.capacity * sizeof *y) != 0;
+    memcpy(z, a.z, a.capacity * sizeof *z);
+    arrays given = draw(2) ? without_empty(&a) : a;
+    given.written = STALE;
+    fr_status status = call(which, *object, &given);
+    if (status != FR_OK)
+        wrong = memcmp(before, *object, size) != 0 ||
+                memcmp(y, a.y, a.capacity * sizeof *y) != 0 ||
+                memcmp(z, a.z, a.capacity * sizeof *z) != 0 || is_stale(status, given.written);
     else
         ++*done;
     if (draw(9) == 0) {

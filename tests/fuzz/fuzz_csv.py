@@ -4,20 +4,17 @@ Run it as `harness` says. The first byte chooses what a channel map would state 
 table that is read has as many rows as it was counted to have, in every column, read twice the same.
 """
 
-import tempfile
 from collections.abc import Mapping
-from pathlib import Path
 
-import atheris
-from harness import fuzz, one_line
+from harness import fuzz, instrumented, one_line, scratch
 
-with atheris.instrument_imports():
+with instrumented():
     import numpy as np
 
     from floatref import Stream
     from floatref_adapters.formats.csv_table.adapter import CsvTable
 
-TABLE = Path(tempfile.mkdtemp(prefix="fuzz-csv-")) / "a.csv"
+TABLE = scratch("csv") / "a.csv"
 OPTIONS: tuple[Mapping[str, str], ...] = (
     {},
     {"delimiter": ";"},
@@ -65,4 +62,4 @@ def check(stream: Stream) -> None:
 
 
 if __name__ == "__main__":
-    fuzz(read_any, SEEDS)
+    fuzz("csv", read_any, SEEDS)

@@ -5,17 +5,13 @@ real numbers are reached too. A profile that is read is written and read again, 
 same then.
 """
 
-import tempfile
-from pathlib import Path
+from harness import fuzz, instrumented, one_line, scratch
 
-import atheris
-from harness import fuzz, one_line
-
-with atheris.instrument_imports():
+with instrumented():
     from floatref import InputError, Profile
     from floatref_adapters.formats.erd.erd_profile import Erd
 
-FOLDER = Path(tempfile.mkdtemp(prefix="fuzz-erd-"))
+FOLDER = scratch("erd")
 HEADER, NUMBERS, AGAIN = (FOLDER / name for name in ("a.erd", "a.bin", "b.erd"))
 SEEDS = (
     b"ERDFILEV2.00\n2, 2, -1, 1, 5, 0.5, -1,\nSHORTNAMLElev   RElev   \nUNITSNAMin      mm      \n"
@@ -56,4 +52,4 @@ def same(profile: Profile, again: Profile) -> None:
 
 
 if __name__ == "__main__":
-    fuzz(read_any, SEEDS)
+    fuzz("erd", read_any, SEEDS)

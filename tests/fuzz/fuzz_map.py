@@ -6,17 +6,15 @@ that more than the TOML parser is reached.
 """
 
 import random
-import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 
-import atheris
 import numpy as np
-from harness import fuzz, one_line
+from harness import fuzz, instrumented, one_line, scratch
 
-with atheris.instrument_imports(include=["floatref", "tomllib"]):
+with instrumented(include=["floatref", "tomllib"]):
     from floatref import Column, Epoch, NativeClock, NativeFile, Rows, Stream, hookimpl
     from floatref.engine.plugins import plugins
     from floatref.mapping import read_map, read_native
@@ -24,7 +22,7 @@ with atheris.instrument_imports(include=["floatref", "tomllib"]):
     from floatref.mapping.clocks.columns import UNKNOWN
     from floatref.mapping.draft.drafting import draft_map
 
-FOLDER = Path(tempfile.mkdtemp(prefix="fuzz-map-"))
+FOLDER = scratch("map")
 MAP, SOURCE = FOLDER / "map.toml", FOLDER / "run.mem"
 SAMPLES = 64
 HEAD = b'format = "floatref-map/1"\n'
@@ -148,6 +146,8 @@ def mutated(data: bytes, most: int, seed: int) -> bytes:
     """Return ``data`` with a line of a map put in, taken out or put elsewhere, or mutated."""
     chance = random.Random(seed)
     if chance.random() < 0.5:
+        import atheris
+
         return bytes(atheris.Mutate(data, most))
     lines = data.split(b"\n")
     at = chance.randrange(len(lines) + 1)
@@ -165,7 +165,7 @@ def main() -> None:
     warnings.simplefilter("error")
     SOURCE.write_bytes(b"")
     plugins().add(Plugin(), "memory")
-    fuzz(read_any, SEEDS, mutated)
+    fuzz("map", read_any, SEEDS, mutated)
 
 
 if __name__ == "__main__":

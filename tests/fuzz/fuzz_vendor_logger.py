@@ -5,20 +5,18 @@ of the header and of the blocks are put right, so that what lies behind them is 
 """
 
 import sys
-import tempfile
 import warnings
 import zlib
 from fractions import Fraction
 from pathlib import Path
 
-import atheris
 import numpy as np
-from harness import fuzz, one_line
+from harness import fuzz, instrumented, one_line, scratch
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs" / "examples" / "vendor_plugin"))
 
-with atheris.instrument_imports():
+with instrumented():
     from acme_roadlogger import layout
     from acme_roadlogger.adapter import RoadLogger
     from acme_roadlogger.blocks import Skipped, sound_blocks
@@ -28,7 +26,7 @@ with atheris.instrument_imports():
 
     from floatref import NativeFile, Stream
 
-FILE = Path(tempfile.mkdtemp(prefix="fuzz-logger-")) / "run.arl"
+FILE = scratch("logger") / "run.arl"
 WHOLE, BLOCKS_AS_THEY_ARE, AS_IT_IS = range(3)
 """What the first byte of an input says of the checks."""
 
@@ -107,7 +105,7 @@ def seeds() -> list[bytes]:
 def main() -> None:
     """Fuzz with every warning an error."""
     warnings.simplefilter("error")
-    fuzz(read_any, seeds())
+    fuzz("vendor_logger", read_any, seeds())
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from click.testing import CliRunner
 
 from floatref.cli.main import main as floatref
 from floatref.cli.program.starting import start as start_floatref
+from floatref.files.scratch import remove_left
 from floatref_conformance.__main__ import start as start_conformance
 from floatref_conformance.cli.main import main as conformance
 
@@ -22,8 +23,10 @@ LONGEST_S = 120.0
 MOST_BYTES = 600 << 20
 LOADED_BYTES = 250 << 20
 """What a process takes that has loaded what commands need, and nothing else."""
-ALLOWED = range(6)
-"""Exit codes that commands have."""
+ALLOWED = (*range(6), 130)
+"""Exit codes that commands have, that of a signal last."""
+FOLLOWS, FOLLOWED_S = ("live", "--follow"), 5.0
+"""A command that waits for its file to grow: it gets a SIGTERM after this time in s."""
 TRACES = ("Traceback (most recent call last)", "the suite itself is at fault", "Exception ignored")
 
 STARTS = {"floatref": start_floatref, "conformance": start_conformance}
@@ -74,7 +77,7 @@ def run_attack(words: Sequence[str], folder: Path) -> Ended:
     temporary.mkdir()
     before = resident_bytes()
     process = begin(words, here, temporary)
-    code, hung, peak = wait(process)
+    code, hung, peak = wait(process, FOLLOWED_S if {*FOLLOWS} <= {*words} else None)
     peak = LOADED_BYTES + max(0, peak - before)
     text = (here / "printed").read_text(encoding="utf-8", errors="replace")
     beside = [path.name for path in folder.rglob(".floatref-*")]
@@ -120,15 +123,24 @@ def _become(words: Sequence[str], here: Path, temporary: Path) -> None:
 
         traceback.print_exc()
     finally:
+        # Of what the end of Python does: all else there is of the process that has made this one.
+        remove_left()
         sys.stdout.flush()
         sys.stderr.flush()
         os._exit(code)
 
 
-def wait(process: int) -> tuple[int, bool, int]:
-    """Return exit code, whether it had to be killed, and its peak of memory in bytes."""
-    end, hung = time.monotonic() + LONGEST_S, False
+def wait(process: int, stopped_s: float | None = None) -> tuple[int, bool, int]:
+    """Return exit code, whether it had to be killed, and its peak of memory in bytes.
+
+    It gets a SIGTERM after ``stopped_s``, if given.
+    """
+    begun, hung = time.monotonic(), False
+    end = begun + LONGEST_S
     while True:
+        if stopped_s is not None and time.monotonic() > begun + stopped_s:
+            stopped_s = None
+            os.kill(process, signal.SIGTERM)
         found, status, usage = os.wait4(process, os.WNOHANG)
         if found:
             return os.waitstatus_to_exitcode(status), hung, usage.ru_maxrss << 10

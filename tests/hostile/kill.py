@@ -2,11 +2,11 @@
 
     python tests/hostile/kill.py --kills 1000
 
-Each kill is a SIGKILL or a SIGTERM in a process that has its own session and folders. Law: what has
-been written is whole or not there, no process goes on, SIGTERM leaves nothing, and what SIGKILL
-leaves is gone after the next run of the same command. Whole is what has the bytes that two runs to
-the end have written; of a file in which these differ, by times or durations, all but its numbers.
-Exit code 1 if the law does not hold.
+Each kill is a SIGKILL or a SIGTERM in a process that has its own session and folders, to it alone
+or to its group, as batch queues send it. Law: what has been written is whole or not there, no
+process goes on, SIGTERM leaves nothing, and what SIGKILL leaves is gone after the next run. Whole
+is what has the bytes that two runs to the end have written; of a file in which these differ, by
+times or durations, all but its numbers. Exit code 1 if not.
 """
 
 import argparse
@@ -144,15 +144,14 @@ def _measure(key: str, template: str, folder: Path, sound: dict[str, Path]) -> W
 def kill_once(work: Work, folder: Path, sound: dict[str, Path], draw: random.Random) -> Killed:
     """Kill ``work`` at a moment of ``draw``, run it again to its end, and say what was wrong."""
     place = Place(folder)
-    sent = draw.choice([signal.SIGKILL, signal.SIGTERM])
+    sent, send = draw.choice([signal.SIGKILL, signal.SIGTERM]), draw.choice([os.kill, os.killpg])
     process = place.start(work.key, work.template, sound)
     time.sleep(draw.uniform(0.0, 1.1 * work.time_s))
-    os.kill(process, sent)
+    send(process, sent)
     code, hung, _ = wait(process)
-    over = code in (work.code, 0)
     faults = [*_after(work, place, sent, code, hung, process), *_again(work, place, sound)]
     shutil.rmtree(place.here, ignore_errors=True)
-    return Killed(work.key, sent.name, tuple(faults), over)
+    return Killed(work.key, sent.name, tuple(faults), code in (work.code, 0))
 
 
 def _after(
@@ -162,9 +161,11 @@ def _after(
     if hung:
         yield "hang"
     if any(trace in place.printed for trace in TRACES):
-        yield "traceback"
+        yield f"traceback: {place.printed[-2000:]}"
     if code not in (work.code, -sent, INTERRUPTED):
         yield f"exit code {code}"
+    if code == INTERRUPTED and "Interrupted" not in place.printed:
+        yield "no line"
     if not _ends(process, place):
         yield "alive"
     found = place.files()
@@ -235,8 +236,7 @@ def kill_often(kills: int, seed: int | None, folder: Path) -> list[Killed]:
 
 def report(killed: Sequence[Killed]) -> int:
     """Print counts and every fault; return how many kills had one."""
-    counts = Counter((one.key, one.signal) for one in killed)
-    for (key, sent), count in sorted(counts.items()):
+    for (key, sent), count in sorted(Counter((k.key, k.signal) for k in killed).items()):
         print(f"{count:5} {sent} {key}")
     for one in killed:
         if one.faults:

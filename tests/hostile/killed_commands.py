@@ -51,6 +51,7 @@ PRINTING = {
     "floatref pipelines recording": "pipelines {run}",
     "floatref channels file": "channels {csv}",
     "floatref allan recording": "allan {still}",
+    "floatref warm pipelines": "warm temporal-basic temporal-hpf",
     "conformance run alone": "run --check quiescent",
     "conformance replay case": "replay {case} --device builtin:temporal-basic",
     "conformance certify runs": "certify {run_1} {run_2} --reference {profile} --section 0:150",
@@ -65,7 +66,6 @@ OTHERS = {"floatref batch": "batch {run} {braked} --out {x} --jobs 1"}
 NOT_KILLED = {
     "floatref adapters": "prints a list",
     "floatref live": "waits for samples: tests/sdk/cli/live/test_killed_live.py",
-    "floatref warm": "compiles for numba, which renames its files into place",
     "conformance list": "prints a list",
     "conformance scenario": "prints a list",
     "conformance explain": "prints a text",

@@ -77,12 +77,13 @@ def test_what_is_no_file_is_refused_in_one_line(
     assert sorted(path.name for path in tmp_path.iterdir()) == [hostile.name]
 
 
+@pytest.mark.parametrize("kind", ["pipe", "loop"])
 @pytest.mark.parametrize("key", WRITTEN)
 def test_a_target_that_is_no_file_is_refused_in_one_line(
-    tmp_path: Path, sound: dict[str, Path], key: str
+    tmp_path: Path, sound: dict[str, Path], key: str, kind: str
 ) -> None:
     hostile = tmp_path / f"hostile{suffix_in(WRITTEN[key])}"
-    KINDS["pipe"](hostile)
+    KINDS[kind](hostile)
     words = words_of(key, WRITTEN[key], tmp_path / "hostile", sound)
     ended = CliRunner().invoke(judge if words[0] == "conformance" else floatref, words[1:])
     assert ended.exit_code == 2, ended.output

@@ -23,6 +23,7 @@ SECONDS: Mapping[str, Fraction] = {
     **dict.fromkeys(("d", "day", "days"), Fraction(86_400)),
 }
 """Seconds in a unit of time."""
+DAY_S = 86_400
 NONE = "none"
 """The option `time` of a table in which no column is to be taken for one of time."""
 UNKNOWN = "no time column; state rate_hz in the map"
@@ -95,4 +96,5 @@ def of_epoch(clock: NativeClock, options: Mapping[str, str]) -> NativeClock:
         return clock
     if stated not in {epoch.value for epoch in Epoch}:
         raise InputError(f"epoch = {stated!r}; give {', '.join(epoch.value for epoch in Epoch)}")
-    return replace(clock, epoch=Epoch(stated))
+    turn_s = Fraction(DAY_S) if stated == Epoch.DAY.value else clock.turn_s
+    return replace(clock, epoch=Epoch(stated), turn_s=turn_s)

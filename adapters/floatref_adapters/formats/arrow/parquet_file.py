@@ -4,13 +4,24 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from floatref import check_file, open_bytes
+from floatref import InputError, check_file, open_bytes
 from floatref_adapters.formats.arrow.parquet_pages import check_pages
 from floatref_adapters.shared.refusals import library
 from floatref_adapters.shared.row_pieces import count_piece_rows
 
 BUFFER = 1 << 20
 """Bytes of a column chunk that are read at once, however long it is."""
+
+
+def count_rows(footer: Any) -> int:
+    """Return the rows of a file; InputError unless its row groups have as many as it says."""
+    held = sum(footer.row_group(group).num_rows for group in range(footer.num_row_groups))
+    if held != footer.num_rows:
+        raise InputError(
+            f"the footer counts {footer.num_rows} rows, its row groups hold {held}; copy the "
+            "complete file"
+        )
+    return int(held)
 
 
 class ParquetSource:
@@ -23,7 +34,7 @@ class ParquetSource:
         self._path = path
         with self._open() as opened:
             self.schema = opened.schema_arrow
-            self.rows = opened.metadata.num_rows
+            self.rows = count_rows(opened.metadata)
 
     def arrays(self, places: Sequence[int]) -> Iterator[list[Any]]:
         """Yield the columns at ``places``, ascending, a piece of their rows at a time."""

@@ -15,7 +15,7 @@ MISSING = frozenset(
 """Fields of missing samples, in small letters, those of spreadsheets' errors among them."""
 SPACES = " "
 """The delimiter of columns that runs of spaces or tabs part."""
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?inf(inity)?", re.ASCII | re.I)
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?inf(inity)?", re.ASCII | re.I)
 
 
 def is_missing(text: str) -> bool:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from floatref import Epoch, InputError, NativeClock
 from floatref_adapters.formats.csv_table.table_fields import is_number
 from floatref_adapters.formats.csv_table.table_rows import Piece
+from floatref_adapters.shared.time_columns import DAY_S
 from floatref_adapters.shared.time_texts import CLOCK, ISO, read_day_ns, read_iso_ns
 
 MOST_DIGITS = 18
@@ -124,7 +125,7 @@ class Times:
         if self.writing is Writing.ISO:
             return NativeClock(tick_s=Fraction(1, 10**9), epoch=Epoch.UTC, name="utc")
         if self.writing is Writing.DAY:
-            return NativeClock(tick_s=Fraction(1, 10**9))
+            return NativeClock(tick_s=Fraction(1, 10**9), turn_s=Fraction(DAY_S))
         scale = 10**self.decimals if self.integral else 1
         return NativeClock(tick_s=self.unit_s / scale)
 

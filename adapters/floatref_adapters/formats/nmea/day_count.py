@@ -7,6 +7,7 @@ from datetime import date
 DAY_NS = 86_400 * 10**9
 HALF_DAY_NS = DAY_NS // 2
 HOUR_NS = 3600 * 10**9
+SECOND_NS = 10**9
 UNIX_DAY = date(1970, 1, 1).toordinal()
 TIME = re.compile(r"([01]\d|2[0-3])([0-5]\d)([0-5]\d|60)(?:\.(\d{0,9}))?$", re.ASCII)
 YEARS = range(1980, 2200)
@@ -53,6 +54,7 @@ class DayCount:
         self._faults = faults
         self._day = 0
         self._last_of: dict[str, int] = {}
+        self._after_leap: int | None = None
 
     def moment(self, kind: str, time_ns: int, day: int | None) -> int:
         """Return when a sentence of ``kind`` with its time of day, and maybe date, was taken."""
@@ -65,7 +67,11 @@ class DayCount:
         if day is not None:
             self._take(day)
         self.now_ns = self._day * DAY_NS + time_ns
-        if self.now_ns < self._last_of.get(kind, self.now_ns):
+        if time_ns >= DAY_NS:
+            self._after_leap = self._day + 1
+        # 23:59:60 has the number of the second behind it.
+        again_ns = SECOND_NS if self._day == self._after_leap else 0
+        if self.now_ns < self._last_of.get(kind, self.now_ns) - again_ns:
             self._faults[f"back {kind}"] += 1
         self._last_of[kind] = self.now_ns
         return self.now_ns

@@ -33,7 +33,10 @@ COARSE = 140
 """A time status of less is a coarse one."""
 ROLLED_MS = 1024 * WEEK_MS
 LATENCY = "latency"
-CLOCK = NativeClock(tick_s=Fraction(1, 1000), epoch=Epoch.GPS, name="GPS")
+CLOCK = NativeClock(
+    tick_s=Fraction(1, 1000), epoch=Epoch.GPS, name="GPS", turn_s=Fraction(ROLLED_MS, 1000)
+)
+"""Of receivers that keep ten bits of the week, which begins again at 0."""
 WARNINGS = {
     "damaged": "beginnings of a log that is cut off or has a wrong checksum: dropped",
     "bytes": "bytes between logs (prompts, answers, damaged logs): not read",

@@ -35,6 +35,8 @@ from floatref_adapters.formats.viewer_text.text_rows import (
 from floatref_adapters.shared.length_units import to_metres
 from floatref_adapters.shared.refusals import prefix_errors
 
+FORMULA = tuple("=+-@＝＋－＠")
+"""What a spreadsheet calculates if a title begins with it."""
 LONGEST_HEADER = 1 << 20
 """Bytes within which the first line must end."""
 
@@ -155,8 +157,9 @@ def _track(name: str, layout: Layout, columns: Columns, count: int) -> ProfileTr
 
 
 def _check_name(name: str, path: Path) -> None:
-    """Raise InputError for a name that breaks a line or is read back as another."""
-    if any(c in name for c in "\t\r\n()") or name != name.strip() or name.endswith((".", VALID)):
+    """Raise InputError for a name that breaks a line, is a formula, or is read back as another."""
+    broken = any(c in name for c in "\t\r\n()") or name.startswith(FORMULA)
+    if broken or name != name.strip() or name.endswith((".", VALID)):
         raise InputError(
             f"{path}: track {name!r} has a name that this format cannot hold; write a .csv"
         )

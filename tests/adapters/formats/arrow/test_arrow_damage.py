@@ -44,6 +44,14 @@ def test_a_damaged_file_is_read_or_refused(
     check_damaged(Parquet() if suffix == ".parquet" else ArrowIpc(), path, data)
 
 
+def test_rows_that_no_row_group_holds_are_refused(tmp_path: Path) -> None:
+    """A fuzzer's file: its footer counts forty rows, and lists no row group."""
+    path = tmp_path / "a.parquet"
+    path.write_bytes((Path(__file__).parent / "data" / "no_row_group.parquet").read_bytes())
+    with pytest.raises(InputError, match=r"counts 40 rows, its row groups hold 0; copy the comp"):
+        Parquet().streams(path, {})
+
+
 @pytest.mark.parametrize("suffix", [".arrow", ".arrows"])
 def test_whole_batches_of_a_file_that_was_cut_short_are_read(
     tmp_path: Path, suffix: str, write_table: WriteTable

@@ -147,8 +147,8 @@ def test_only_its_own_header_is_recognised(tmp_path):
         assert ViewerText().recognises(path) is known
 
 
-@pytest.mark.parametrize("name", ["a\tb", "left valid", "x (in)", "x."])
-def test_a_name_that_would_come_back_as_another_is_refused(tmp_path, name):
+@pytest.mark.parametrize("name", ["a\tb", "left valid", "x (in)", "x.", "=1+1", "-2", "＠a"])
+def test_a_name_that_is_a_formula_or_would_come_back_as_another_is_refused(tmp_path, name):
     profile = Profile(1.0, (ProfileTrack.of(name, [0.0, 1.0]),))
     with pytest.raises(InputError, match=r"cannot hold; write a \.csv"):
         ViewerText().write(profile, tmp_path / "run.txt")

@@ -1,0 +1,1 @@
+"""Searches of folders for files: counted, and bounded."""
