@@ -3,12 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from floatref.errors import InputError
+from floatref.kernels.gathered import copy_sound
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import CHANNELS, ChannelId, channel_spec
 from floatref.values.clock import LATEST_S, StampedClock, UniformClock
@@ -17,6 +18,7 @@ from floatref.values.display.similar_names import suggest
 from floatref.values.plain import numbers
 from floatref.values.recording import Channel, Recording, Setup
 
+FLOAT = np.dtype(np.float64)
 LEAPS_S = 86_400.0
 """Largest step of the times of a channel in s."""
 Declared = float | UniformClock | None
@@ -96,7 +98,11 @@ class Entrance:
 
     def __init__(self, clocks: Mapping[ChannelId, UniformClock | None]) -> None:
         """Accept samples of the channels with these clocks."""
+        load_kernel()
         self._clocks = clocks
+        # A push asks for the name of every channel: it is looked up, not read again.
+        self._names: dict[object, ChannelId] = {name: name for name in clocks}
+        self._names |= {str(name): name for name in clocks}
         self.latest_s: dict[ChannelId, float] = {}
 
     def check(self, samples: Mapping[Any, Samples]) -> dict[ChannelId, Piece]:
@@ -115,11 +121,13 @@ class Entrance:
         return found
 
     def _known(self, given: str | ChannelId) -> ChannelId:
-        name = given if given in self._clocks else name_channel(given)
+        known = self._names.get(given)
+        if known is not None:
+            return known
+        name = name_channel(given)
         if name not in self._clocks:
             here = ", ".join(map(str, self._clocks))
             raise InputError(f"channel {name}: was not declared; the stream has {here}")
-        assert isinstance(name, ChannelId)
         return name
 
     def _piece(self, name: ChannelId, given: Samples) -> Piece:
@@ -163,10 +171,24 @@ class Entrance:
             )
 
 
+def is_plain(values: Any) -> TypeGuard[FloatArray]:
+    """Return whether ``values`` can be copied without further questions."""
+    if type(values) is not np.ndarray or values.ndim != 1 or values.dtype is not FLOAT:
+        return False
+    return values.flags.c_contiguous
+
+
+def load_kernel() -> None:
+    """Compile or load the kernel for both kinds of arrays, before the first push waits for it."""
+    own = np.empty(0)
+    for values in (own, frozen(own)):
+        copy_sound(values, own, 0)
+
+
 def _array(name: object, given: Any) -> FloatArray:
-    if type(given) is np.ndarray and given.dtype == np.float64 and given.ndim == 1:
-        own = np.array(given)
-        if not np.isinf(own).any():
+    if is_plain(given):
+        own = np.empty(given.size)
+        if copy_sound(given, own, 0):
             own.flags.writeable = False
             return own
     array = numbers(f"channel {name}", given)

@@ -19,9 +19,16 @@ from floatref.live.forward_pass import ForwardPass, forward_pass_of
 from floatref.live.held_samples import HeldChannel
 from floatref.live.joints import Joints
 from floatref.live.points import LivePoints
-from floatref.live.window_plan import Cut, End, WindowPlan
-from floatref.live.window_run import Processed, WindowRuns, begin_distance
+from floatref.live.window_plan import COMPARED, SPARSE_S, Cut, End, WindowPlan, last_sound
+from floatref.live.window_run import (
+    Processed,
+    WindowRuns,
+    begin_distance,
+    end_distance,
+    without_wrong_ends,
+)
 from floatref.stages.signals import DISTANCE
+from floatref.values.arrays import FloatArray
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
 from floatref.values.needs import FORCE
@@ -62,7 +69,7 @@ class Following:
         runs: what processes them.
         joints: what joins them.
         tick: the last tick that has passed; None before the first.
-        distance_m: the last known distance.
+        distance_m: the last sound distance.
         late: by channel, how many samples came too late, since the last window.
         late_in_all: the same since the stream was started or resumed.
         refused: the first refusal of a window, until any window is accepted.
@@ -133,10 +140,7 @@ class Following:
         for each in self.held.values():
             each.pass_time(time_s)
         self.tick = tick
-        _, distances = self._distance.between(before_s, time_s)
-        known = distances[~np.isnan(distances)]
-        if known.size:
-            self.distance_m = float(known[-1])
+        self._read_distance(before_s, time_s)
         cut = self.plan.step(tick, self.distance_m)
         if cut is not None:
             yield from self._process(cut)
@@ -146,6 +150,15 @@ class Following:
             self._needed_s = needed_s
             for each in self.held.values():
                 each.drop(needed_s)
+
+    def _read_distance(self, before_s: float, time_s: float) -> None:
+        """Take the distance at a tick; without a sample since the last one it stays."""
+        times, distances = _known(*self._distance.between(before_s, time_s))
+        if not distances.size:
+            return
+        if distances.size < COMPARED:
+            times, distances = _known(*self._distance.between(time_s - SPARSE_S, time_s))
+        self.distance_m = last_sound(times, distances)
 
     def _look_ahead(self, begin_s: float, end_s: float, cut: Cut | None) -> Iterator[LivePoints]:
         if self.forward is None:
@@ -174,6 +187,8 @@ class Following:
         )
         if points is not None:
             yield points
+        elif events:
+            yield self.joints.no_points(events)
 
     def _recording(self, cut: Cut) -> Recording | None:
         """Return the samples of the window; None without any."""
@@ -188,9 +203,16 @@ class Following:
             channel = each.cut(cut.begin_s, cut.end_s)
             if channel is None:
                 continue
-            if each.clock is None and each.name.name == DISTANCE:
-                channel = begin_distance(channel, each.between(-np.inf, cut.begin_s), cut.begin_s)
+            if each.name.name == DISTANCE:
+                channel = self._distance_of(cut, each, channel)
             yield channel
+
+    def _distance_of(self, cut: Cut, held: HeldChannel, channel: Channel) -> Channel:
+        if held.clock is None:
+            before = held.between(-np.inf, cut.begin_s)
+            channel = begin_distance(channel, before, cut.begin_s)
+        channel = without_wrong_ends(channel)
+        return end_distance(channel, cut.end_s) if cut.end is End.STANDSTILL else channel
 
     def _say_late(self) -> Sequence[str]:
         late, self.late = self.late, {}
@@ -208,6 +230,11 @@ class Following:
         if self.order.reason:
             record["chosen"] = {"by": "auto", "reason": self.order.reason}
         return record
+
+
+def _known(times_s: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    known = ~np.isnan(values)
+    return times_s[known], values[known]
 
 
 def _forward_pass(order: Order) -> ForwardPass | None:

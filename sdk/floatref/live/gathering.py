@@ -8,19 +8,19 @@ next tick. Nothing is decided between two ticks, so that no point comes later.
 
 from collections.abc import Mapping
 from math import ceil, floor
-from typing import Any, TypeGuard
+from typing import Any
 
 import numpy as np
 
+from floatref.kernels.gathered import copy_sound
 from floatref.live.bounds import TICK_S
-from floatref.live.declared_channels import Entrance, Piece, Samples
+from floatref.live.declared_channels import Entrance, Piece, Samples, is_plain
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
 
 SPARE = 1024
 """Samples for which a room is made beyond those of a tick."""
-FLOAT = np.dtype(np.float64)
 
 
 class Room:
@@ -43,13 +43,14 @@ class Room:
         self._look_ahead()
 
     def put(self, values: FloatArray) -> bool:
-        """Write ``values`` behind the others, not yet as part of them; False if one is infinite."""
+        """Write ``values`` behind the others, not yet as part of them; False if one is infinite.
+
+        They are without gaps in memory: the kernel is compiled for no others.
+        """
         end = self.size + values.size
         if end > self._array.size:
             self._array = np.append(self._array[: self.size], np.empty(2 * end))
-        part = self._array[self.size : end]
-        part[:] = values
-        return not np.isinf(part).any()
+        return copy_sound(values, self._array, self.size)
 
     def keep(self, count: int) -> bool:
         """Make the last ``count`` samples written part of the room; return whether it is due."""
@@ -108,7 +109,7 @@ class Gathering:
         seen = set()
         for given, values in samples.items():
             room = self._rated.get(given)
-            if room is None or id(room) in seen or not _is_plain(values) or not room.put(values):
+            if room is None or id(room) in seen or not is_plain(values) or not room.put(values):
                 others[given] = values
             else:
                 seen.add(id(room))
@@ -121,14 +122,14 @@ class Gathering:
             due |= self._rooms[name].add(piece)
         return due
 
+    @property
+    def size(self) -> int:
+        """Number of samples to hand over."""
+        return sum(room.size for room in self._rooms.values())
+
     def hand_over(self) -> dict[ChannelId, Piece]:
         """Return the samples of every channel that has any, and begin anew."""
         return {name: room.empty() for name, room in self._rooms.items() if room.size}
-
-
-def _is_plain(values: Any) -> TypeGuard[FloatArray]:
-    """Return whether ``values`` can be copied without further questions."""
-    return type(values) is np.ndarray and values.ndim == 1 and values.dtype is FLOAT
 
 
 def _join(pieces: list[Piece]) -> Piece:

@@ -81,6 +81,10 @@ class Joints:
             first, self.interval_m, joined.part(first, end).tracks, State.FINAL, **about
         )
 
+    def no_points(self, events: tuple[str, ...]) -> LivePoints:
+        """Return no points, with what happened to a window before the first one."""
+        return LivePoints(self.next or 0, self.interval_m, (), State.FINAL, events=events)
+
     def _begin(self, window: WindowPoints) -> int | None:
         """Return the first point to give out: the one behind the last, if it is measured."""
         if self.tail.tracks or (self.next is not None and not window.tracks):

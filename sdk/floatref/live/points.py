@@ -1,7 +1,7 @@
 """Points that a stream gives out, and the profile that they make."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any
 
@@ -32,7 +32,8 @@ class LivePoints:
     Attributes:
         first: number of the first point, from the origin of the axis of distance.
         interval_m: distance between points in m.
-        tracks: elevation, validity and, where known, 1-σ of every wheel path.
+        tracks: elevation, validity and, where known, 1-σ of every wheel path; empty within a stream
+            where there are events and no points.
         state: whether they are final.
         pipeline: the name of what made them.
         events: what happened there, one line each.
@@ -49,11 +50,13 @@ class LivePoints:
 
     def __len__(self) -> int:
         """Return the number of points."""
-        return self.tracks[0].elevation.size
+        return self.tracks[0].elevation.size if self.tracks else 0
 
     def __repr__(self) -> str:
         """Return state and place on one line."""
         at_m = self.distance_m
+        if not at_m.size:
+            return f"LivePoints(0 {self.state}, {len(self.events)} events)"
         return f"LivePoints({len(self)} {self.state}, from {at_m[0]:.2f} to {at_m[-1]:.2f} m)"
 
     @property
@@ -66,13 +69,30 @@ class LivePoints:
         return Profile(self.interval_m, self.tracks).track(name)
 
 
+def carry_events(points: Sequence[LivePoints]) -> tuple[list[LivePoints], list[LivePoints]]:
+    """Return ``points`` up to the last one that has any, and those with the events of the others.
+
+    A reader gets no element without points: its events come with the next one.
+    """
+    end = max((n + 1 for n, each in enumerate(points) if each.tracks), default=0)
+    made: list[LivePoints] = []
+    before: tuple[str, ...] = ()
+    for each in points[:end]:
+        if not each.tracks:
+            before = (*before, *each.events)
+            continue
+        made.append(replace(each, events=(*before, *each.events)) if before else each)
+        before = ()
+    return list(points[:end]), made
+
+
 def join_points(points: Iterable[LivePoints]) -> Profile:
     """Return the profile of the final ones of ``points``, in order; others are left out.
 
     Points between two of them that were never measured are missing. Its record has that of every
     window, see `describe_windows`. Raises InputError without a final point.
     """
-    final = [each for each in points if each.state is State.FINAL]
+    final = [each for each in points if each.state is State.FINAL and len(each)]
     if not final:
         raise InputError("the stream has no final point; push samples of a vehicle that moves")
     made = next((each for each in final if each.pipeline), final[0])

@@ -5,6 +5,9 @@ a JSON document in UTF-8. Provisional points are not in it: their filter runs in
 """
 
 import json
+import struct
+import tokenize
+import zlib
 from collections.abc import Mapping
 from dataclasses import fields
 from fractions import Fraction
@@ -33,6 +36,12 @@ from floatref.values.profile import ProfileTrack
 from floatref.version import __version__
 
 FORMAT = "floatref-stream/1"
+DAMAGED = (
+    *(BadZipFile, EOFError, KeyError, MemoryError, OSError, OverflowError, RecursionError),
+    *(RuntimeError, SyntaxError, TypeError, ValueError, struct.error, tokenize.TokenError),
+    zlib.error,
+)
+"""What zipfile and numpy raise for a file that is no archive of arrays, or a damaged one."""
 PLAN = tuple(each.name for each in fields(WindowPlan) if each.name not in ("bounds", "places"))
 Arrays = dict[str, NDArray[Any]]
 Clocks = Mapping[ChannelId, UniformClock | None]
@@ -74,7 +83,7 @@ def load_state(path: Path) -> tuple[Following, Entrance]:
     except InputError as error:
         reason = str(error).removeprefix(f"{path}: ")
         raise InputError(f"{path}: cannot be read ({reason}); give a saved stream") from error
-    except (BadZipFile, ValueError, KeyError, EOFError) as error:
+    except DAMAGED as error:
         raise InputError(f"{path}: is no saved stream; save one with LiveStream.save") from error
     if not isinstance(state, dict) or state.get("format") != FORMAT:
         raise InputError(f"{path}: is no saved stream of format {FORMAT}; save it again")

@@ -1,10 +1,10 @@
 """A stream: samples are pushed while the vehicle drives, and a thread makes points of them."""
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 from threading import Condition, Thread
-from types import TracebackType
 from typing import Any
 
 from floatref.engine.choosing import AUTO
@@ -13,7 +13,7 @@ from floatref.live.bounds import LATE_S, Latency
 from floatref.live.declared_channels import Declared, Entrance, Piece, Samples, read_declarations
 from floatref.live.following import Following
 from floatref.live.gathering import Gathering
-from floatref.live.points import LivePoints
+from floatref.live.points import LivePoints, carry_events
 from floatref.live.saved_state import load_state, save_state
 from floatref.live.starting import settle
 from floatref.live.warming import warm
@@ -21,15 +21,15 @@ from floatref.values.channels import ChannelId
 from floatref.values.recording import Setup
 
 WAITING = 1 << 23
-"""Most samples that wait for the thread: 64 MB; a push of more waits until all others are done."""
+"""Most samples that wait for the thread, 64 MB; a push of more waits until half are done."""
 Pieces = Mapping[ChannelId, Piece]
 
 
-class LiveStream:
+class LiveStream(AbstractContextManager["LiveStream"]):
     """Takes samples and gives out points; `start_stream` makes one.
 
     One thread pushes and reads; the work is done in another one. `finish` or `close` ends it, and
-    so does the end of a ``with`` statement.
+    so does the end of a ``with`` statement. It is ``torn`` where a signal has cost it samples.
     """
 
     def __init__(self, following: Following, entrance: Entrance) -> None:
@@ -40,8 +40,7 @@ class LiveStream:
         self._changed = Condition()
         self._queue: deque[Pieces | None] = deque()
         self._waiting = 0
-        self._busy = False
-        self._stopped = self._finished = False
+        self._busy = self._stopped = self._finished = self.torn = False
         self._error: BaseException | None = None
         self._points: list[LivePoints] = []
         self._thread = Thread(target=self._work, name="floatref-live", daemon=True)
@@ -82,14 +81,13 @@ class LiveStream:
 
         A channel with a rate has its samples, shape (N,), in SI units, NaN for missing ones; one
         without has (times in s, samples). Each channel has its own order, and may be late. Samples
-        are copied, and go to the thread every half second of theirs. It waits while too many
-        samples are in the queue.
+        are copied, and go to the thread every half second of theirs. Where too many samples are
+        in the queue, it waits until half of them are done.
 
         Raises InputError for samples that cannot be used, and then takes no sample of the push;
         StageError after `finish` or `close`; and any error of the thread.
         """
-        if self._error is not None or not self.is_open:
-            self._check_open("push")
+        self._check_open("push")
         if self._gathering.take(samples, self._entrance):
             self._hand_over()
 
@@ -98,14 +96,23 @@ class LiveStream:
 
         Raises any error of the thread.
         """
+        taken, points = carry_events(self.peek(wait))
+        self.forget(taken)
+        return points
+
+    def peek(self, wait: bool = False) -> list[LivePoints]:
+        """Return all that is there, events without points too; it stays there until `forget`."""
         if wait and self.is_open:
             self._hand_over()
         with self._changed:
             if wait:
                 self._changed.wait_for(self._is_idle)
             self._raise_error()
-            points, self._points = self._points, []
-        return points
+            return list(self._points)
+
+    def forget(self, points: Sequence[LivePoints]) -> None:
+        """Remove ``points``, which `peek` has returned."""
+        del self._points[: len(points)]
 
     def finish(self) -> list[LivePoints]:
         """End the run: return what `ready` would, and the points of the last window.
@@ -119,7 +126,7 @@ class LiveStream:
             self._queue.append(None)
             self._finished = True
             self._changed.notify_all()
-        self._thread.join()
+        self._join()
         return self.ready()
 
     def save(self, path: Path | str) -> None:
@@ -143,43 +150,41 @@ class LiveStream:
             self._stopped = True
             self._queue.clear()
             self._changed.notify_all()
+        self._join()
+
+    def _join(self) -> None:
+        """Wait for the thread, whose lock a signal at the end of a `with` may have left here."""
+        with suppress(RuntimeError):
+            while True:
+                self._changed.release()
         self._thread.join()
 
-    def __enter__(self) -> "LiveStream":
-        """Use the stream; it is closed at the end."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """Close it."""
         self.close()
 
     def _hand_over(self) -> None:
         """Give the thread what was pushed since the last time."""
-        pieces = self._gathering.hand_over()
-        if not pieces:
+        count = self._gathering.size
+        if not count:
             return
-        count = sum(piece.values.size for piece in pieces.values())
         with self._changed:
-            self._changed.wait_for(lambda: self._fits(count) or self._error is not None)
+            if self._waiting and self._waiting + count > WAITING:
+                # Woken for each piece that leaves, it would share the interpreter all the time.
+                half = WAITING // 2
+                self._changed.wait_for(lambda: self._waiting <= half or self._error is not None)
             self._raise_error()
-            self._queue.append(pieces)
+            self.torn = True
+            self._queue.append(self._gathering.hand_over())
             self._waiting += count
             self._changed.notify_all()
-
-    def _fits(self, count: int) -> bool:
-        return not self._waiting or self._waiting + count <= WAITING
+            self.torn = False
 
     def _is_idle(self) -> bool:
         return self._error is not None or not (self._queue or self._busy)
 
     def _check_open(self, call: str) -> None:
-        with self._changed:
-            self._raise_error()
+        self._raise_error()
         if not self.is_open:
             raise StageError(f"{call}: the stream has ended; start another one")
 
@@ -192,9 +197,8 @@ class LiveStream:
             while self._work_once():
                 pass
         except BaseException as error:
-            with self._changed:
-                self._error = error
-                self._queue.clear()
+            self._error = error
+            self._queue.clear()
         with self._changed:
             self._busy = False
             self._changed.notify_all()
@@ -209,8 +213,7 @@ class LiveStream:
                 return False
             pieces, self._busy = self._queue.popleft(), True
         for points in self._process(pieces):
-            with self._changed:
-                self._points.append(points)
+            self._points.append(points)
         return pieces is not None
 
     def _process(self, pieces: Pieces | None) -> Iterator[LivePoints]:

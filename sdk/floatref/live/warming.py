@@ -19,6 +19,7 @@ from floatref.live.following import Following, Order
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.clock import UniformClock
+from floatref.values.encoder import DISTANCES
 from floatref.values.needs import VERTICAL_FORCES
 
 SPEED_MPS, CHANGE = 16.0, 4.0
@@ -32,7 +33,6 @@ TIMED_HZ = 20.0
 """Rate in Hz of a channel whose samples have times."""
 LIKELY = {"gnss_quality": 4.0, "gnss_latitude": 0.7, "gnss_longitude": 0.1}
 SPEEDS = ("gnss_speed", "wheel_speed")
-DISTANCES = ("distance", "wheel_distance", "optical_distance")
 EXACT = (*DISTANCES, *LIKELY)
 NOISE = 1e-5
 """1-σ of the noise of all sensors but those, in the unit of each."""

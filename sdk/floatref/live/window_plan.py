@@ -20,6 +20,8 @@ from floatref.live.bounds import (
     TICK_S,
     Bounds,
 )
+from floatref.values.arrays import FloatArray
+from floatref.values.channels import STANDARD_GRAVITY
 
 CALM = round(5.0 / TICK_S)
 """Ticks of steady travel before a joint, and behind it."""
@@ -29,6 +31,35 @@ BRAKES = 1.0
 """Largest change of speed around a joint in m/s²."""
 SET_BACK_M = 1.0
 """A distance this far behind the farthest, in m, is of a counter that was set back."""
+COMPARED = 5
+"""Distances at the end of a tick that are compared with each other."""
+SPARSE_S = 10.0
+"""Time in s before a tick in which they are looked for where few come."""
+HARDEST = 2.0 * STANDARD_GRAVITY
+"""Limit of braking and speeding up of any vehicle, in m/s²."""
+
+
+def last_sound(times_s: FloatArray, distances: FloatArray) -> float:
+    """Return the last of ``distances``, in m, without what one or two wrong samples say.
+
+    It lies where those before it lead, within `SET_BACK_M` or what braking can change: so that a
+    sample far off neither ends a window nor makes it shorter. A leap that stays is taken when three
+    samples have it. Few or no other samples are no ground to doubt the last one.
+    """
+    times, places = times_s[-COMPARED:], distances[-COMPARED:]
+    off_m, unsure_m = compare(times, places)
+    return float(places[np.flatnonzero(off_m <= unsure_m)[-1]])
+
+
+def compare(times_s: FloatArray, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return by how many m each of a few ``places`` is off what the others say, and may be."""
+    if places.size < 3:
+        return np.zeros(places.size), np.zeros(places.size)
+    middle = int(np.argsort(places, kind="stable")[places.size // 2])
+    speed = float(np.median(np.diff(places) / np.diff(times_s)))
+    since = times_s - times_s[middle]
+    off_m = np.abs(places - places[middle] - speed * since)
+    return off_m, np.maximum(SET_BACK_M, 0.5 * HARDEST * since**2)
 
 
 class End(StrEnum):
@@ -86,7 +117,7 @@ class WindowPlan:
     def step(self, tick: int, distance_m: float | None) -> Cut | None:
         """Return the window that is complete at ``tick``, if one is.
 
-        ``distance_m`` is the last known distance then, None before the first.
+        ``distance_m`` is that of `last_sound` then, None before the first.
         """
         if distance_m is None:
             return None

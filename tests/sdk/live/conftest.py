@@ -91,19 +91,19 @@ def in_pieces(recording, seed, most_s=3.0, lateness_s=0.0) -> Iterator[dict]:
     now_s = min(c.span_s[0] for c in recording.channels)
     end_s = max(c.span_s[1] for c in recording.channels) + lateness_s
     done = dict.fromkeys((c.id for c in recording.channels), 0)
+    times = {c.id: c.times_s for c in recording.channels}
     while now_s <= end_s:
         now_s += rng.uniform(0.01, most_s)
         found = {}
         for channel in recording.channels:
             until_s = now_s - rng.uniform(0.0, lateness_s) if now_s <= end_s else np.inf
-            piece = _take(channel, done, until_s)
+            piece = _take(channel, times[channel.id], done, until_s)
             if piece is not None:
                 found[str(channel.id)] = piece
         yield found
 
 
-def _take(channel, done, until_s):
-    times = channel.times_s
+def _take(channel, times, done, until_s):
     first, end = done[channel.id], int(np.searchsorted(times, until_s))
     if end <= first:
         return None

@@ -83,6 +83,16 @@ def test_stops_of_any_length_give_the_same_points(drive):
     assert max(sizes) - min(sizes) <= 1
 
 
+@pytest.mark.parametrize("distance", ["times", "rate"])
+def test_a_standstill_loses_nothing_before_it(drive, distance):
+    recording = drive([(20.0, 30.0), (0.0, 60.0), (20.0, 30.0)], rate_hz=100.0, distance=distance)
+    profile = run_as_live(recording, "temporal-basic").profile
+    ends = [window["end"] for window in profile.provenance["live"]["windows"]]
+    assert ends == ["standstill", "end of the stream"]
+    assert profile.start_m < 0.5
+    assert np.isfinite(profile["left"].elevation).all()
+
+
 def test_a_counter_that_is_set_back_leaves_the_axis_as_it_is(drive):
     recording = drive([(20.0, 60.0)], rate_hz=200.0)
     values = np.array(recording.channel("distance").values)

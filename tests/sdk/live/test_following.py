@@ -2,6 +2,7 @@
 
 import os
 import threading
+import time
 import tracemalloc
 from pathlib import Path
 
@@ -12,12 +13,14 @@ from floatref import InputError, Setup, start_stream
 from floatref.live.declared_channels import Piece
 from floatref.live.following import Following
 from floatref.live.joints import WindowPoints
-from floatref.live.points import State
+from floatref.live.points import LivePoints, State, carry_events, join_points
+from floatref.live.session.answers import of_points
 from floatref.live.starting import settle
 from floatref.live.stream import WAITING
 from floatref.live.window_run import Processed
 from floatref.values.channels import ChannelId
 from floatref.values.clock import UniformClock
+from floatref.values.profile import ProfileTrack
 
 RATE_HZ, PIECE_S = 100.0, 20.0
 FORCE, HEIGHT, DISTANCE = (
@@ -147,6 +150,45 @@ def test_a_push_waits_for_a_slow_thread_and_loses_nothing(monkeypatch):
     assert WAITING == 1 << 23
 
 
+def test_a_full_queue_is_drained_before_a_push_goes_on(monkeypatch):
+    """Else the caller would wake for each piece, and share the interpreter with the thread."""
+    monkeypatch.setattr("floatref.live.stream.WAITING", 8000)
+    steps, taken = threading.Semaphore(0), []
+
+    def push(self, pieces):
+        steps.acquire(timeout=10.0)
+        taken.append(pieces[HEIGHT].values.size)
+        return iter(())
+
+    monkeypatch.setattr(Following, "push", push)
+    channels = dict.fromkeys((FORCE, HEIGHT, DISTANCE), RATE_HZ)
+    with start_stream(Setup(), channels, "temporal-basic") as stream:
+        for _ in range(8):
+            stream.push({HEIGHT: np.ones(1000)})
+        ninth = threading.Thread(target=stream.push, args=({HEIGHT: np.ones(1000)},))
+        waits, wait_for = threading.Event(), stream._changed.wait_for
+
+        def watched(predicate):
+            if threading.current_thread() is ninth:
+                waits.set()
+            return wait_for(predicate)
+
+        monkeypatch.setattr(stream._changed, "wait_for", watched)
+        ninth.start()
+        assert waits.wait(60.0)
+        for done in range(4):
+            assert ninth.is_alive(), done
+            steps.release()
+            while len(taken) <= done:
+                time.sleep(0.001)
+        ninth.join(60.0)
+        assert not ninth.is_alive()
+        for _ in range(5):
+            steps.release()
+        stream.ready(wait=True)
+    assert taken == [1000] * 9
+
+
 def test_an_error_of_the_thread_is_raised_by_the_next_call(monkeypatch):
     def push(self, pieces):
         raise InputError("channel height: leaps")
@@ -158,3 +200,31 @@ def test_an_error_of_the_thread_is_raised_by_the_next_call(monkeypatch):
         for call in (lambda: stream.ready(wait=True), lambda: stream.push({}), stream.finish):
             with pytest.raises(InputError, match="channel height: leaps"):
                 call()
+
+
+def test_what_is_refused_before_the_first_point_is_said_at_once(following):
+    following.runs.process = lambda cut, recording: Processed(
+        WindowPoints(0, ()), None, lines=("a line",), refused=InputError("no light")
+    )
+    pushed = [each for pieces in hours(0.1) for each in following.push(pieces)]
+    assert pushed
+    for each in pushed:
+        assert (len(each), each.state) == (0, State.FINAL)
+        assert each.events[0] == "a line"
+        assert each.events[1].endswith("no elevation; no light")
+        assert "2 events" in repr(each)
+        assert [answer.body["first"] for answer in of_points(each)] == [None, None]
+    with pytest.raises(InputError, match="no final point"):
+        join_points(pushed)
+
+
+def test_a_reader_gets_events_with_the_next_points():
+    track = ProfileTrack.of("main", [0.0, 1.0])
+    silent, said = (LivePoints(0, 0.1, (), State.FINAL, events=(line,)) for line in ("a", "b"))
+    first = LivePoints(0, 0.1, (track,), State.PROVISIONAL, events=("c",))
+    second = LivePoints(2, 0.1, (track,), State.FINAL)
+    taken, points = carry_events([silent, said, first, second, said])
+    assert taken == [silent, said, first, second]
+    assert [each.events for each in points] == [("a", "b", "c"), ()]
+    assert points[1] is second
+    assert carry_events([silent]) == ([], [])

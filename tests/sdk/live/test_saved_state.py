@@ -75,6 +75,16 @@ def test_a_file_that_is_no_saved_stream_is_named(tmp_path, content):
         resume_stream(path)
 
 
+def test_a_file_whose_places_are_wrong_is_no_saved_stream(tmp_path):
+    """Its first array begins two bytes before the file."""
+    np.savez(tmp_path / "other.npz", state=np.zeros(3, np.uint8))
+    data = bytearray((tmp_path / "other.npz").read_bytes())
+    data[data.rindex(b"PK\x05\x06") + 16] += 2
+    (tmp_path / "other.npz").write_bytes(data)
+    with pytest.raises(InputError, match="is no saved stream"):
+        resume_stream(tmp_path / "other.npz")
+
+
 def test_a_file_that_is_missing_or_of_another_version_is_named(made, tmp_path):
     with pytest.raises(InputError, match=r"missing\.npz: cannot be read"):
         resume_stream(tmp_path / "missing.npz")

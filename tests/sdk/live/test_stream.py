@@ -1,5 +1,6 @@
 """A stream gives what `process(as_live=True)` gives, however its samples come in."""
 
+import threading
 import warnings
 
 import numpy as np
@@ -143,3 +144,21 @@ def test_a_stream_that_has_ended_takes_no_samples(drive):
         stream.push({})
     with pytest.raises(StageError, match="finish: the stream has ended"):
         stream.finish()
+
+
+@pytest.mark.parametrize("end", ["finish", "close"])
+def test_a_lock_that_a_signal_has_left_keeps_no_thread(made, pieces, end):
+    """Python gives a signal to the main thread, also as the lock of a `with` is released."""
+    recording, _ = made("one clock", "temporal-basic")
+    stream = stream_of(recording, "temporal-basic")
+    for piece in pieces(recording, 0):
+        stream.push(piece)
+
+    def interrupted():
+        stream._changed.acquire()
+        getattr(stream, end)()
+
+    ending = threading.Thread(target=interrupted, daemon=True)
+    ending.start()
+    ending.join(60.0)
+    assert not ending.is_alive()

@@ -18,7 +18,7 @@ from floatref.live.bounds import (
     TICK_S,
     Bounds,
 )
-from floatref.live.window_plan import SLOW_MPS, End, WindowPlan
+from floatref.live.window_plan import SLOW_MPS, End, WindowPlan, last_sound
 
 SPEEDS = st.sampled_from([0.0, 0.002, 0.3, 2.0, 8.0, 20.0, 36.0])
 LEGS = st.lists(st.tuples(SPEEDS, st.integers(1, 300)), min_size=1, max_size=12)
@@ -142,3 +142,25 @@ def test_a_counter_that_is_set_back_ends_a_window():
     assert (first.end, first.set_back_m) == (End.SET_BACK, pytest.approx(990.0))
     assert first.end_s == 99 * TICK_S
     assert second.begin_s == 100 * TICK_S
+
+
+@given(st.integers(0, 4), st.sampled_from([-1e5, -50.0, -1.2, 1.2, 50.0, 1e5]))
+def test_the_distance_of_a_tick_is_never_a_wrong_sample(at, error_m):
+    times = 0.01 * np.arange(50)
+    distances = 100.0 + 20.0 * times
+    distances[-5 + at] += error_m
+    assert last_sound(times, distances) == pytest.approx(100.0 + 20.0 * times[-1], abs=0.21)
+
+
+def test_sound_distances_are_taken_as_they_are():
+    times = 0.1 * np.arange(50)
+    for distances in (3.0 * times**2, np.floor(20.0 * times), np.zeros(50), 90.0 * times):
+        assert last_sound(times, distances) == distances[-1]
+    assert last_sound(times[:1], np.array([7.0])) == 7.0
+    assert last_sound(times[:2], np.array([7.0, 1e5])) == 1e5
+
+
+def test_a_leap_that_stays_is_taken():
+    times = 0.01 * np.arange(50)
+    distances = np.where(times < times[-3], 100.0, 2.0)
+    assert last_sound(times, distances) == 2.0

@@ -8,6 +8,7 @@ from floatref.cli.batch.interruption import interruptible
 from floatref.cli.live.live_views import make_monitor, open_views
 from floatref.cli.number_option import number_option
 from floatref.errors import InputError, TargetExists
+from floatref.files.atomic import check_target
 from floatref.live.session.connections import is_loopback, read_token, serve_connections
 from floatref.live.session.live_run import SAVE_S, LiveRun
 from floatref.live.session.peers import followed, standard_streams
@@ -17,6 +18,7 @@ HERE = "127.0.0.1"
 LAST_PORT = 65_535
 LONGEST_SAVE_S = 3600.0
 SAVED = "Interrupted; the run is saved, go on with --resume"
+UNSAVED = "Interrupted; the run is as it was saved last, go on with --resume"
 
 
 @click.command("live")
@@ -89,7 +91,7 @@ def live(
 
 
 def _serve(run: LiveRun, follow: Path | None, listen: int | None, host: str, token: str) -> None:
-    with interruptible(lambda: SAVED if run.is_begun else "Interrupted"):
+    with interruptible(lambda: _describe_end(run)):
         if listen is not None:
             serve_connections(run, host, listen, token, click.echo, _say)
             return
@@ -97,10 +99,17 @@ def _serve(run: LiveRun, follow: Path | None, listen: int | None, host: str, tok
             Serving(run, peer).serve()
 
 
+def _describe_end(run: LiveRun) -> str:
+    if run.complete or not run.is_begun:
+        return "Interrupted"
+    return SAVED if run.is_saved else UNSAVED
+
+
 def _check(out: Path, resume: bool, follow: Path | None, listen: int | None, save_s: float) -> None:
     """Raise InputError now for what cannot work later."""
     if not resume and out.exists():
         raise TargetExists(f"{out}: exists; go on with --resume, or choose another name")
+    check_target(out, overwrite=True)
     if follow is not None and listen is not None:
         raise InputError("--follow and --listen: both say where messages come from; give one")
     if not 0.0 <= save_s <= LONGEST_SAVE_S:

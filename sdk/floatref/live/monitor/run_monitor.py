@@ -126,8 +126,9 @@ class RunMonitor(Watch):
     def gave(self, points: LivePoints) -> None:
         """Take points and their events."""
         for text in points.events:
-            self._note(text, points.first * points.interval_m)
-        self._give(points)
+            self._note(text, points.first * points.interval_m if len(points) else None)
+        if len(points):
+            self._give(points)
 
     @_harmless
     def event(self, text: str) -> None:

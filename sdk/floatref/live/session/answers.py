@@ -42,7 +42,9 @@ def started(
 
 
 def of_points(points: LivePoints) -> list[Answer]:
-    """Return ``points`` and their events as answers."""
+    """Return ``points``, if there are any, and their events as answers."""
+    if not len(points):
+        return [event(text) for text in points.events]
     events = [Answer("event", {"text": text, "first": points.first}) for text in points.events]
     body = {
         "state": str(points.state),

@@ -120,18 +120,22 @@ def read_arrow(stream: BufferedReader) -> Iterator[Sent]:
             where = f"batch {number}"
             with name_errors(where):
                 yield from (Sent(where, each) for each in _read_batch(batch))
-    except (pa.ArrowInvalid, OSError) as error:
+    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
         if limited.ended:
             return
-        if not isinstance(error, pa.ArrowInvalid):
+        # pyarrow has an OSError for damaged bytes, too: only that of a system has a number.
+        if isinstance(error, OSError) and error.errno is not None:
             raise
         raise InputError(f"behind {where}: no Arrow IPC ({error}); send a stream") from error
 
 
 def _read_hello(schema: "pyarrow.Schema") -> Message:
     expected = schema_of(MESSAGES, {})
+    names = schema.names
     for field in expected:
-        found = schema.field(field.name).type if field.name in schema.names else "missing"
+        found: object = "missing" if field.name not in names else "given twice"
+        if names.count(field.name) == 1:
+            found = schema.field(field.name).type
         if found != field.type:
             raise InputError(f"schema: column {field.name} is {found}; expected {field.type}")
     text = (schema.metadata or {}).get(HELLO)
@@ -143,6 +147,8 @@ def _read_hello(schema: "pyarrow.Schema") -> Message:
 
 
 def _read_batch(batch: "pyarrow.RecordBatch") -> Iterator[Message]:
+    # Offsets that lead out of a buffer otherwise end the process, or show its memory.
+    batch.validate(full=True)
     pieces: dict[str, Piece] = {}
     columns = {name: batch.column(name) for name in MESSAGES}
     ended = False

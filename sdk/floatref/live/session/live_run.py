@@ -11,7 +11,9 @@ from floatref.live.points import LivePoints, State
 from floatref.live.session import answers
 from floatref.live.session.answers import Answer
 from floatref.live.session.messages import Hello, Piece, Samples, read_hello
-from floatref.live.session.run_directory import RunDirectory, cut_tracks, is_complete, parts
+from floatref.live.session.point_parts import cut_tracks, parts
+from floatref.live.session.run_directory import RunDirectory, is_complete
+from floatref.live.session.run_lock import RunLock
 from floatref.live.session.sample_numbers import SampleNumbers, describe_missing, fill
 from floatref.live.session.watch import Odometer, Watch
 from floatref.live.stream import LiveStream, start_stream
@@ -39,7 +41,7 @@ class LiveRun:
     ) -> None:
         """Serve the run that is to be made at ``path``, or ``resume`` the one there.
 
-        Raises InputError for a directory that holds no run to resume.
+        Raises InputError for a directory without a run to resume, and one that is served.
         """
         self._path, self._save_s, self._clock = path, save_s, clock
         self.watch = watch or Watch()
@@ -48,15 +50,25 @@ class LiveRun:
         self._numbers = SampleNumbers({}, {})
         self._distance, self._odometer = DISTANCE, Odometer(None)
         self._saved_at = clock()
-        self._unsaved = False
-        self.complete = resume and is_complete(path)
-        if resume and not self.complete:
+        self._unsaved = self._torn = False
+        self._lock = RunLock(path) if resume else None
+        self.complete = False
+        if resume:
             self._reopen()
 
     @property
     def is_begun(self) -> bool:
-        """Whether there is a stream."""
-        return self._stream is not None
+        """Whether there is a directory to go on from."""
+        return self._directory is not None
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether all that has come is on the disk."""
+        return self.complete or not (self._unsaved or self._is_torn)
+
+    @property
+    def _is_torn(self) -> bool:
+        return self._torn or (self._stream is not None and self._stream.torn)
 
     def greet(self, hello: Hello, from_start: bool = False) -> Iterator[Answer]:
         """Begin the run, or go on with it, and yield the answers.
@@ -88,6 +100,7 @@ class LiveRun:
                 yield answers.event(text)
         for pieces in fill(numbered, self._numbers.clocks):
             self._push(pieces)
+        self._numbers.skip(numbered)
         self._push({name: each.piece for name, each in numbered.items()})
         self._observe(samples)
 
@@ -95,25 +108,34 @@ class LiveRun:
         """Yield the answers that have become ready; final points are on the disk before that."""
         if self._stream is None:
             return
-        points = self._stream.ready()
+        points = self._stream.peek()
         due = self._unsaved and self._clock() - self._saved_at >= self._save_s
         if due or any(each.state is State.FINAL for each in points):
-            yield from self._save(points)
+            yield from self._save()
         else:
+            self._stream.forget(points)
             yield from self._give(points)
 
     def save(self) -> Iterator[Answer]:
-        """Save all that has come, and yield the answers that are ready."""
-        if self._stream is not None and self._stream.is_open:
-            yield from self._save([])
+        """Save all that has come, and yield the answers that are ready.
+
+        A stream that was interrupted within a push has more samples than were counted: of such a
+        run what was saved before remains.
+        """
+        if self._stream is None or self._directory is None or self._is_torn:
+            return
+        if self._stream.is_open:
+            yield from self._save()
 
     def finish(self) -> Iterator[Answer]:
         """Complete the profile, and yield the last answers.
 
-        Raises InputError where no point is final, or the pipeline has refused every window.
+        All is saved before, so that a run that is ended meanwhile goes on from there. Raises
+        InputError where no point is final, or the pipeline has refused every window.
         """
         assert self._stream is not None
         assert self._directory is not None
+        yield from self._save()
         self.watch.waited(True)
         points = self._stream.finish()
         self.watch.waited(False)
@@ -134,9 +156,11 @@ class LiveRun:
         yield answers.finished(self._path, count, profile.interval_m)
 
     def close(self) -> None:
-        """End the thread of the stream; what is not saved is lost."""
+        """End the thread of the stream; what is not saved is lost. Others may then resume it."""
         if self._stream is not None:
             self._stream.close()
+        if self._lock is not None:
+            self._lock.release()
 
     def _begin(self, hello: Hello) -> None:
         if not hello.channels:
@@ -147,10 +171,17 @@ class LiveRun:
         self._directory = RunDirectory.begin(
             self._path, hello.document, self._stream, self._numbers.next
         )
+        self._lock = RunLock(self._path)
 
     def _reopen(self) -> None:
-        self._directory, self._stream, sent = RunDirectory.reopen(self._path)
-        self._know(read_hello(self._directory.hello, f"{self._path}: hello"), sent)
+        try:
+            self.complete = is_complete(self._path)
+            if not self.complete:
+                self._directory, self._stream, sent = RunDirectory.reopen(self._path)
+                self._know(read_hello(self._directory.hello, f"{self._path}: hello"), sent)
+        except BaseException:
+            self.close()
+            raise
 
     def _know(self, hello: Hello, sent: Mapping[str, int]) -> None:
         clocks = {str(name): clock for name, clock in hello.channels.items()}
@@ -176,9 +207,16 @@ class LiveRun:
             if each.values.size
         }
         if given:
-            self._stream.push(given)
+            # Ctrl-C may come between the two.
+            self._torn = True
+            try:
+                self._stream.push(given)
+            except InputError:
+                # Then it has taken nothing.
+                self._torn = False
+                raise
             self._numbers.count(pieces)
-            self._unsaved = True
+            self._unsaved, self._torn = True, False
 
     def _observe(self, samples: Samples) -> None:
         counts = {name: each.values.size for name, each in samples.channels.items()}
@@ -188,15 +226,16 @@ class LiveRun:
         self.watch.read(samples.channels)
         self.watch.took(self._odometer.see(counts))
 
-    def _save(self, points: list[LivePoints]) -> Iterator[Answer]:
-        """Save the stream behind ``points`` and all that are ready, then give these out."""
+    def _save(self) -> Iterator[Answer]:
+        """Save all that has come; the stream has its points until they are stored."""
         assert self._stream is not None
         assert self._directory is not None
         self.watch.waited(True)
-        points = [*points, *self._stream.ready(wait=True)]
+        points = self._stream.peek(wait=True)
         self.watch.waited(False)
         final = [each for each in points if each.state is State.FINAL]
         self._directory.store(final, self._stream, self._numbers.next)
+        self._stream.forget(points)
         self._saved_at, self._unsaved = self._clock(), False
         yield from self._give(points)
         yield answers.saved(self._state())

@@ -2,6 +2,7 @@
 
 import io
 import os
+import select
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -39,12 +40,35 @@ class GrowingFile(io.RawIOBase):
             time.sleep(PAUSE_S)
 
 
+class WaitingStream(io.RawIOBase):
+    """Reads a stream, and waits for more where it was set not to block.
+
+    Terminals, pipes and sockets that programs share have one such setting for all of them.
+    """
+
+    def __init__(self, raw: io.RawIOBase) -> None:
+        """Read ``raw``, which has a number of the system."""
+        self._raw = raw
+
+    def readable(self) -> bool:
+        """Return that it can be read."""
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        """Read what there is, at least one byte; 0 once it has ended."""
+        # Nothing to read yet is None, which a buffered reader takes for the end.
+        while (count := self._raw.readinto(buffer)) is None:
+            select.select([self._raw], [], [])
+        return int(count)
+
+
 @contextmanager
 def standard_streams() -> Iterator[Peer]:
     """Yield the program at the other end of standard input and output."""
     # Not `sys.stdin`: at exit Python waits for the lock of a thread that still reads it.
     with open(0, "rb", buffering=0, closefd=False) as raw:
-        yield Peer(BufferedReader(raw), write_to_output, "standard input")
+        waiting: Any = BufferedReader(WaitingStream(raw))
+        yield Peer(waiting, write_to_output, "standard input")
 
 
 @contextmanager
@@ -57,6 +81,12 @@ def followed(path: Path) -> Iterator[Peer]:
 
 
 def write_to_output(data: bytes) -> None:
-    """Write ``data`` to standard output at once; OSError once its reader is gone."""
+    """Write ``data`` to standard output; OSError once its reader is gone.
+
+    Where the program at the other end has set what both share not to block, this waits.
+    """
     while data:
-        data = data[os.write(1, data) :]
+        try:
+            data = data[os.write(1, data) :]
+        except BlockingIOError:
+            select.select([], [1], [])

@@ -12,9 +12,8 @@ written beyond is not part of the run, and the points in it are those of the sav
 """
 
 import json
-import os
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -32,12 +31,9 @@ from floatref.live.points import (
     record_of_window,
 )
 from floatref.live.stream import LiveStream, resume_stream
-from floatref.values.profile import Profile, ProfileTrack
 
 STATE, WINDOWS = "live.json", "windows.jsonl"
 FORMAT = "floatref-live-run/1"
-AT_ONCE = 20_000
-"""Points that are read again from the disk at once."""
 INLINE_BYTES = 2 << 20
 """Longest record of all windows in bytes that `profile.json` holds; a document has its limit."""
 
@@ -103,13 +99,15 @@ class RunDirectory:
         ``sent`` has the number of samples of each channel that the stream was given. Every sample
         and point is on the disk when this returns, or the run is as before.
         """
-        self._append(points)
-        stream.save(self.path / _stream_name(self._number + 1))
-        self._number += 1
-        with replace_file(self.path / STATE, overwrite=True) as beside:
-            write_document(self._describe(sent), beside)
+        with self._unless_it_fails():
+            self._append(points)
+            # A number is never used again: live.json may name that of a try that was interrupted.
+            self._number += 1
+            stream.save(self.path / _stream_name(self._number))
+            with replace_file(self.path / STATE, overwrite=True) as beside:
+                write_document(self._describe(sent), beside)
         with suppress(OSError):
-            os.unlink(self.path / _stream_name(self._number - 1))
+            self._remove_older()
         if points:
             self._publish()
 
@@ -118,16 +116,40 @@ class RunDirectory:
 
         Raises InputError if the run has no point.
         """
-        self._append(points)
+        with self._unless_it_fails():
+            self._append(points)
         if self.profile.first is None:
             raise InputError("the stream has no final point; push samples of a vehicle that moves")
         inline = self._windows_bytes <= INLINE_BYTES
         self.profile.publish(self._description(inline), growing=False)
         _remove_state(self.path, inline)
 
+    @contextmanager
+    def _unless_it_fails(self) -> Iterator[None]:
+        """Go back to what was stored before, unless `live.json` already names what is new."""
+        profile = self.profile
+        before = profile.first, profile.count, set(profile.with_sigma)
+        windows = self._windows_bytes, self._made
+        try:
+            yield
+        except BaseException:
+            if not self._is_named():
+                profile.first, profile.count, profile.with_sigma = before
+                self._windows_bytes, self._made = windows
+            raise
+
+    def _is_named(self) -> bool:
+        with suppress(InputError):
+            found = _read_state(self.path)
+            return bool(found["number"] == self._number and found["points"] == self._points())
+        return False
+
     def _append(self, points: Sequence[LivePoints]) -> None:
-        for each in points:
+        for each in filter(len, points):
             end = self.profile.end
+            if end is not None and each.first + len(each) <= end:
+                # Stored by a try that was interrupted behind it.
+                continue
             gap = 0 if end is None else each.first - end
             if gap * each.interval_m > LONGEST_GAP_M:
                 raise InputError(
@@ -151,14 +173,17 @@ class RunDirectory:
             "next": dict(sent),
             "interval_m": self.profile.interval_m,
             "tracks": list(self.profile.names),
-            "points": {
-                "first": self.profile.first,
-                "count": self.profile.count,
-                "with_sigma": sorted(self.profile.with_sigma),
-            },
+            "points": self._points(),
             "made": self._made,
             "windows_bytes": self._windows_bytes,
             "hello": self.hello,
+        }
+
+    def _points(self) -> dict[str, Any]:
+        return {
+            "first": self.profile.first,
+            "count": self.profile.count,
+            "with_sigma": sorted(self.profile.with_sigma),
         }
 
     def _publish(self) -> None:
@@ -189,7 +214,8 @@ def is_complete(path: Path) -> bool:
     if not (path / DOCUMENT).is_file():
         return False
     document = read_document(path / DOCUMENT)
-    live = document.get("provenance", {}).get("live") if isinstance(document, dict) else None
+    provenance = document.get("provenance") if isinstance(document, dict) else None
+    live = provenance.get("live") if isinstance(provenance, dict) else None
     if not isinstance(live, dict) or "points" in document:
         return False
     _remove_state(path, live.get("windows_file") != WINDOWS)
@@ -201,30 +227,6 @@ def _remove_state(path: Path, with_windows: bool) -> None:
         (path / name).unlink(missing_ok=True)
     for stream in path.glob(_stream_name("*")):
         stream.unlink(missing_ok=True)
-
-
-def parts(first: int | None, begin: int, end: int) -> Iterator[tuple[int, int]]:
-    """Yield the ends of short parts of the points from ``first`` on; nothing for None.
-
-    There are points from ``begin`` to before ``end``.
-    """
-    if first is not None:
-        for low in range(max(first, begin), end, AT_ONCE):
-            yield low, min(low + AT_ONCE, end)
-
-
-def cut_tracks(profile: Profile, low: int, high: int) -> tuple[ProfileTrack, ...]:
-    """Return points ``low`` to ``high`` - 1 of every wheel path of ``profile``."""
-    cut = slice(low, high)
-    return tuple(
-        ProfileTrack.of(
-            track.name,
-            track.elevation[cut],
-            track.valid[cut],
-            None if track.sigma is None else track.sigma[cut],
-        )
-        for track in profile.tracks
-    )
 
 
 def _stream_name(number: int | str) -> str:

@@ -60,6 +60,12 @@ class SampleNumbers:
         for name, piece in pieces.items():
             self.next[name] += piece.values.size
 
+    def skip(self, numbered: Mapping[str, Numbered]) -> None:
+        """Count the samples with times that never came: there is nothing to push in their place."""
+        for name, each in numbered.items():
+            if self.clocks[name] is None:
+                self.next[name] += each.missing
+
     def _number(self, name: str, piece: Piece) -> Numbered:
         if name not in self.clocks:
             known = ", ".join(self.clocks)
@@ -69,8 +75,7 @@ class SampleNumbers:
         first = self.come[name] if piece.first is None else piece.first
         self.come[name] = first + piece.values.size
         known_before = min(max(self.next[name] - first, 0), piece.values.size)
-        # A channel whose samples have times has no place for a sample that never came.
-        missing = 0 if stamped or not piece.values.size else max(first - self.next[name], 0)
+        missing = max(first - self.next[name], 0) if piece.values.size else 0
         times = None if piece.times_s is None else piece.times_s[known_before:]
         return Numbered(Piece(piece.values[known_before:], times), missing)
 
@@ -90,11 +95,15 @@ def _check_times(name: str, piece: Piece, stamped: bool) -> None:
 def fill(
     numbered: Mapping[str, Numbered], clocks: Mapping[str, UniformClock | None]
 ) -> Iterator[dict[str, Piece]]:
-    """Yield NaN for all samples that never came, all channels by turns.
+    """Yield NaN for all samples of channels with a rate that never came, all channels by turns.
 
     Raises InputError for more than a day of them.
     """
-    left = {name: each.missing for name, each in numbered.items() if each.missing}
+    left = {
+        name: each.missing
+        for name, each in numbered.items()
+        if each.missing and clocks[name] is not None
+    }
     for name, missing in left.items():
         length_s = missing / _rate(clocks[name])
         if length_s > LONGEST_GAP_S:
@@ -110,12 +119,11 @@ def fill(
 
 def describe_missing(name: str, missing: int, numbers: SampleNumbers) -> str:
     """Return the line about ``missing`` samples of a channel that never came."""
-    clock = numbers.clocks[name]
-    assert clock is not None
-    at_s = clock.start_s + numbers.next[name] / float(clock.rate)
-    return (
-        f"channel {name}: {missing} samples from {at_s:.3f} s on were not sent; counted as missing"
-    )
+    clock, number = numbers.clocks[name], numbers.next[name]
+    where = f"number {number}"
+    if clock is not None:
+        where = f"{clock.start_s + number / float(clock.rate):.3f} s"
+    return f"channel {name}: {missing} samples from {where} on were not sent; counted as missing"
 
 
 def _rate(clock: UniformClock | None) -> float:

@@ -103,7 +103,7 @@ class Serving:
     def _step(self) -> bool:
         """Take one message, if there is one; return whether the run is complete."""
         if self._outbox.lost:
-            raise PeerLost(f"{self._peer.name}: reads no answers any more{RESUME}")
+            raise self._lost("reads no answers any more")
         sent = self._next()
         if sent is not None and self._obey(sent):
             return True
@@ -117,10 +117,13 @@ class Serving:
         try:
             return self._inbox.get(POLL_S)
         except EOFError:
-            raise PeerLost(f"{self._peer.name}: ended without the message finish{RESUME}") from None
+            raise self._lost("ended without the message finish") from None
         except OSError as error:
-            reason = error.strerror or str(error)
-            raise PeerLost(f"{self._peer.name}: {reason}{RESUME}") from error
+            raise self._lost(error.strerror or str(error)) from error
+
+    def _lost(self, reason: str) -> PeerLost:
+        remedy = RESUME if self._run.is_begun else "; no hello has come, begin again"
+        return PeerLost(f"{self._peer.name}: {reason}{remedy}")
 
     def _obey(self, sent: Sent) -> bool:
         where, message = sent

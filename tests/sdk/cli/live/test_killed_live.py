@@ -36,8 +36,14 @@ def run(drive, messages_of):
 
 def start(path: Path, *more: str) -> subprocess.Popen[bytes]:
     resume = ["--resume"] if path.exists() else []
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    return subprocess.Popen([*LIVE, str(path), *resume, *more], **pipes)
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with said_by(path).open("ab") as said:
+        return subprocess.Popen([*LIVE, str(path), *resume, *more], stderr=said, **pipes)
+
+
+def said_by(path):
+    """Return the file of what the commands write to standard error."""
+    return path.with_name("said.txt")
 
 
 def feed(process, messages, pause_s):
@@ -122,13 +128,14 @@ def kill_often(run, path, same, times, seed):
             until_s = time.monotonic() + rng.uniform(0.0, 4.0)
             known = read_on(process, path, expected, known, until_s)
             # Neither ends by itself: the peer goes on and says nothing more.
+            assert process.poll() is None, said_by(path).read_text()
             os.kill(victim.pid, signal.SIGKILL)
             known = read_on(process, path, expected, known, time.monotonic() + 0.5)
         known = check_prefix(path, expected, known)
     with start(path) as last:
         feed(last, messages, 0.0)
         answers = last.stdout.read().splitlines()
-    assert last.returncode == 0
+    assert last.returncode == 0, said_by(path).read_text()
     assert json.loads(answers[-1])["kind"] == "finished"
     same(read_profile(path), expected)
 

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from floatref import read_profile
 from floatref.cli.main import main
 from floatref.live.as_live import run_as_live
+from floatref.live.session.run_lock import RunLock
 
 LEGS = [(20.0, 200.0)]
 PIPELINE = "temporal-basic"
@@ -48,6 +49,14 @@ def test_an_existing_directory_is_left_as_it_is(tmp_path):
     ended = CliRunner().invoke(main, ["live", "-o", str(tmp_path / "run")])
     assert ended.exit_code == 2
     assert "run: exists; go on with --resume, or choose another name" in ended.stderr
+
+
+def test_a_run_that_another_command_serves_is_not_resumed(tmp_path):
+    lock = RunLock(tmp_path)
+    ended = CliRunner().invoke(main, ["live", "-o", str(tmp_path), "--resume"])
+    lock.release()
+    assert (ended.exit_code, ended.stdout, ended.stderr.count("\n")) == (2, "", 1)
+    assert "another command serves this run; end that one" in ended.stderr
 
 
 def start(path, *words, **more):

@@ -79,6 +79,12 @@ def test_another_host_is_refused(served, host, path):
     assert b"<html" not in content
 
 
+@pytest.mark.posix
+def test_the_port_of_the_page_is_open_at_one_address_alone(served):
+    with pytest.raises(OSError, match=r"refused|timed out|assign"):
+        socket.create_connection(("127.0.0.2", served[0]), timeout=5.0)
+
+
 def test_localhost_is_this_machine(served):
     assert ask(served[0], host="localhost:PORT")[0].status == 200
 

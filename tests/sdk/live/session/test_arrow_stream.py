@@ -100,6 +100,33 @@ def break_bytes(messages):
     return bytes(data)
 
 
+def break_flatbuffer(messages):
+    """Damage what pyarrow checks before the schema, and has an OSError for."""
+    data = bytearray(as_arrow(messages))
+    data[8:40] = b"\xff" * 32
+    return bytes(data)
+
+
+def break_offsets(messages):
+    """Let the text of a cell end before it begins: pyarrow ends the process that reads it."""
+    hello, *rest = messages
+    data = bytearray(as_arrow([hello, {"channels": {"left.height": {"values": [1.0]}}}, *rest]))
+    at = data.index(b"left.height", data.index(b"samples")) - 8
+    assert data[at : at + 8] == bytes(4) + (11).to_bytes(4, "little")
+    data[at + 7] = 0x80
+    return bytes(data)
+
+
+def break_name(messages):
+    data = as_arrow(messages)
+    return data.replace(b"values", b"\xe6alues")
+
+
+def break_twice(messages):
+    """Give two columns one name."""
+    return as_arrow(messages).replace(b"times_s\0", b"channel\0")
+
+
 def break_length(messages):
     return as_arrow(messages[:3])[:-8] + b"\xff\xff\xff\xff\xff\xff\xff\x7f" + bytes(100)
 
@@ -128,8 +155,12 @@ def test_what_is_no_message_is_named(messages, live, tmp_path, broken, line):
     assert line in str(error)
 
 
-def test_damaged_bytes_end_in_one_line(messages, live, tmp_path):
-    _, error = live.serve_bytes(tmp_path / "run", break_bytes(messages))
+DAMAGES = (break_bytes, break_flatbuffer, break_offsets, break_name, break_twice)
+
+
+@pytest.mark.parametrize("broken", DAMAGES)
+def test_damaged_bytes_end_in_one_line(messages, live, tmp_path, broken):
+    _, error = live.serve_bytes(tmp_path / "run", broken(messages))
     assert isinstance(error, InputError)
 
 

@@ -4,13 +4,16 @@ import json
 import socket
 import threading
 from contextlib import contextmanager
+from io import BytesIO
 
 import numpy as np
 import pytest
 
 from floatref import InputError, read_profile
 from floatref.live.as_live import run_as_live
+from floatref.live.session import serving
 from floatref.live.session.connections import is_loopback, read_token, serve_connections
+from floatref.live.session.json_lines import read_json_lines
 from floatref.live.session.live_run import LiveRun
 
 LEGS = [(20.0, 250.0)]
@@ -55,11 +58,12 @@ def served(path, token=""):
     assert not thread.is_alive()
 
 
-def talk(port, data):
+def talk(port, data, ends=True):
     """Send ``data`` and return the answers, read after all was sent."""
     with socket.create_connection(("127.0.0.1", port), timeout=WAIT_S) as connection:
         connection.sendall(data)
-        connection.shutdown(socket.SHUT_WR)
+        if ends:
+            connection.shutdown(socket.SHUT_WR)
         with connection.makefile("rb") as stream:
             return [json.loads(line) for line in stream]
 
@@ -105,6 +109,38 @@ def test_a_message_that_cannot_be_used_ends_the_run(messages, live, tmp_path):
     assert found[-1]["text"].startswith(line)
     assert [str(error).startswith(line) for error in errors] == [True]
     assert (tmp_path / "run" / "live.json").exists()
+
+
+def end(port, live, hello):
+    """End the run with a message that cannot be used."""
+    assert talk(port, live.as_lines([hello, {"kind": "none"}]))[-1]["kind"] == "refused"
+
+
+@pytest.mark.posix
+def test_the_port_is_open_at_the_address_of_the_host_alone(messages, live, tmp_path):
+    with served(tmp_path / "run") as (port, _, _):
+        with pytest.raises(OSError, match=r"refused|timed out|assign"):
+            socket.create_connection(("127.0.0.2", port), timeout=5.0)
+        end(port, live, messages[0])
+
+
+def test_a_peer_that_sends_no_hello_holds_the_port_for_a_time(
+    messages, live, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(serving, "HELLO_S", 0.3)
+    with served(tmp_path / "run") as (port, lines, _):
+        (answer,) = talk(port, b"", ends=False)
+        assert answer["text"].startswith("no hello within 0.3 s; send one first")
+        assert len(lines) == 1
+        monkeypatch.setattr(serving, "HELLO_S", WAIT_S)
+        end(port, live, messages[0])
+
+
+def test_a_line_without_an_end_is_not_read_to_its_end():
+    line = BytesIO(b"x" * ((16 << 20) + 100))
+    with pytest.raises(InputError, match="line 1: longer than 16 MiB; send fewer samples"):
+        next(read_json_lines(line))
+    assert line.tell() == (16 << 20) + 1
 
 
 @pytest.mark.slow

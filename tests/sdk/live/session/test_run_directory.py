@@ -14,7 +14,7 @@ import pytest
 from floatref import InputError, read_profile
 from floatref.files.growing_profile import GrowingProfile, append_durably
 from floatref.live.as_live import run_as_live
-from floatref.live.session.run_directory import RunDirectory
+from floatref.live.session.run_directory import RunDirectory, is_complete
 from floatref.values.profile import ProfileTrack
 
 LEGS = [(20.0, 260.0)]
@@ -142,3 +142,9 @@ def test_a_sigma_that_comes_later_is_unknown_before(tmp_path):
     with pytest.raises(InputError, match="points from 8 on do not follow those up to 7"):
         profile.append(8, [ProfileTrack.of("left", [1.0])])
     assert [t.elevation.tolist() for t in profile.read(4, 6)] == [[2.0, 3.0]]
+
+
+@pytest.mark.parametrize("provenance", ["null", "[]", '["live"]', '"live"', "1", '{"live": []}'])
+def test_a_document_that_a_stream_has_not_written_is_not_complete(tmp_path, provenance) -> None:
+    (tmp_path / "profile.json").write_text(f'{{"provenance": {provenance}}}', encoding="utf-8")
+    assert not is_complete(tmp_path)
