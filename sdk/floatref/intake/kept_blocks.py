@@ -9,7 +9,7 @@ from floatref.values.block import Block
 
 
 class KeptBlocks:
-    """Blocks in order, as `floatref.engine.flow.Tape` has them, all of them in memory.
+    """Blocks in order, as `floatref.intake.tape.Tape` has them, all of them in memory.
 
     For a run whose length has a bound: a window of a live stream, of which no sample is written to
     disk.
@@ -50,6 +50,9 @@ class KeptBlocks:
     def read(self, number: int) -> Block:
         """Return block ``number``."""
         return self._blocks[number]
+
+    def turn(self) -> None:
+        """Know that all is there; a short run leaves nothing worth mention."""
 
     def forward(self) -> Iterator[Block]:
         """Yield all blocks, the first one first."""

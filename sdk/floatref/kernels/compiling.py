@@ -9,8 +9,10 @@ from functools import cache, update_wrapper
 from threading import RLock
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
-from floatref.kernels.compile_trace import trace_compilation, trace_loads
-from floatref.kernels.garbage import pause_collector
+from floatref.kernels.compilation.code_files import separate_code
+from floatref.kernels.compilation.compile_trace import trace_compilation, trace_loads
+from floatref.kernels.compilation.garbage import pause_collector
+from floatref.kernels.compilation.quick_loads import spare_blas, spare_refreshes
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -21,7 +23,7 @@ _CHOICES: list[Callable[[], None]] = []
 
 
 class Kernel(Generic[P, R]):
-    """A function that numba compiles, once for each types of arguments, when it is called.
+    """A function that numba compiles, once for each signature, when it is called.
 
     Compiled callers take it as numba's own dispatcher, which `dispatcher` makes and returns.
     """
@@ -57,6 +59,9 @@ class Kernel(Generic[P, R]):
                     # NUMBA_DISABLE_JIT: numba gives the function itself.
                     self._dispatcher = self._call = made
                     return made
+                if made.stats.cache_path is not None:
+                    separate_code(made)
+                    spare_refreshes(made)
                 _take_constants_as_values(made)
                 self._dispatcher, self._call = made, trace_loads(made)
             return self._dispatcher
@@ -125,6 +130,13 @@ def chosen(field: str, having: Callable[P, R], lacking: Callable[P, R]) -> Calla
     return choice
 
 
+def stores_code() -> bool:
+    """Return whether numba finds a folder in which compiled kernels are stored."""
+    # The folder follows from the file of the function, of which nothing is compiled.
+    stats = getattr(Kernel(stores_code, OPTIONS).dispatcher(), "stats", None)
+    return stats is not None and stats.cache_path is not None
+
+
 def _load_numba() -> Callable[..., Any]:
     """Return numba's decorator, once numba knows our kernels and choices."""
     from numba import njit
@@ -144,6 +156,7 @@ def _introduce_kernels() -> None:
     from numba.extending import typeof_impl
 
     pause_collector(event)
+    spare_blas()
     typeof_impl.register(Kernel)(lambda kernel, _: types.Dispatcher(kernel.dispatcher()))
     trace_compilation()
 

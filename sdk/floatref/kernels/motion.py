@@ -95,14 +95,34 @@ def find_points(
 
 
 @compiled
-def read_at(x: FloatArray, sample: IndexArray, part: FloatArray, y: FloatArray) -> None:
-    """Write ``x`` at each ``sample``, or ``part`` of the way to it, to ``y``."""
+def read_at(
+    before: float, x: FloatArray, sample: IndexArray, part: FloatArray, y: FloatArray
+) -> None:
+    """Write the values at each ``sample``, or ``part`` of the way to it, to ``y``.
+
+    Sample 0 is ``before``, and those behind it are ``x``: the last of a stretch and the next one.
+    """
     for k in range(sample.size):
         i = sample[k]
+        here = x[i - 1] if i > 0 else before
         if part[k] < 1.0:
-            y[k] = x[i - 1] + part[k] * (x[i] - x[i - 1])
+            last = x[i - 2] if i > 1 else before
+            y[k] = last + part[k] * (here - last)
         else:
-            y[k] = x[i]
+            y[k] = here
+
+
+@compiled
+def go_farther(before: float, distance: FloatArray, farthest: FloatArray) -> None:
+    """Write the farthest ``distance`` so far to ``farthest``, which begins with the one ``before``.
+
+    A missing (NaN) distance is as far as the one before it.
+    """
+    farthest[0] = before
+    for i in range(distance.size):
+        if not (before >= distance[i] or distance[i] != distance[i]):
+            before = distance[i]
+        farthest[i + 1] = before
 
 
 @compiled

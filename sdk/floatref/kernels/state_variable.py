@@ -152,6 +152,46 @@ def low_pass_2(x: FloatArray, y: FloatArray, memory: np.record, c: float, backwa
 
 
 @compiled
+def low_pass_12(
+    x: FloatArray, y: FloatArray, first: np.record, second: np.record, c: float
+) -> None:
+    """LPF_B3S1 then LPF_B3S2 in one loop, forward, with the bits of one after the other.
+
+    What the first one hands on is a sum, so no product of it is fused into the second.
+    """
+    begin = 0
+    if not first.started:
+        begin = _missing_lead(x, False)
+        if begin > 0:
+            # The second stage sees the zeros that the first gives before its start.
+            second.started, second.held, second.s1, second.s2 = True, 0.0, 0.0, 0.0
+            y[:begin] = 0.0
+        if begin < x.size:
+            first.started, first.held, first.s1 = True, x[begin], x[begin]
+            if not second.started:
+                second.started, second.s1, second.s2 = True, 0.0, x[begin]
+    held, s, low, s1, s2 = first.held, first.s1, second.held, second.s1, second.s2
+    gain = c / (1.0 + c)
+    k = 2.0 * gain
+    d = 1.0 / (1.0 + c + c * c)
+    p = 1.0 + c
+    k1 = 2.0 * c * d
+    k2, k3 = k1 * p, k1 * c
+    for i in range(begin, x.size):
+        value = x[i]
+        if value != value:
+            value = held
+        held = value
+        low = s + gain * (value - s)
+        s = (s - k * s) + k * value
+        y[i] = s2 + c * d * (s1 + c * (low - s2))
+        s1_next = (s1 - k2 * s1) + (k1 * low - k1 * s2)
+        s2 = (s2 - k3 * s2) + (k1 * s1 + k3 * low)
+        s1 = s1_next
+    first.held, first.s1, second.held, second.s1, second.s2 = held, s, low, s1, s2
+
+
+@compiled
 def high_pass_21(
     x: FloatArray, y: FloatArray, second: np.record, first: np.record, c: float, backward: bool
 ) -> None:

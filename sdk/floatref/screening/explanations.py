@@ -5,7 +5,7 @@ and than no explanation at all. So noise, drift and a vehicle that hardly moves 
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,6 +21,8 @@ LEAST_EVIDENCE, MOST_EVIDENCE = 0.3, 3.0
 CERTAIN, OUTWEIGHED = 3.0, 4.0
 """Sum of evidence above which an explanation is accepted, and its smallest ratio to the sum against
 it."""
+MOVES = 2.0
+"""Smallest motion that shows a unit, in multiples of what working sensors err by."""
 LIKELY = 1.5
 """Sum of evidence above which a suspicion is reported, if it is twice the sum against it."""
 
@@ -33,11 +35,15 @@ class Look:
         span_s: length of a window in s; windows overlap by half.
         floor: root mean square residual of working sensors, in the signal's unit.
         degree: of the polynomial that is free in each window; -1 for no polynomial.
+        factors: of explanations that are a signal times a number. These count only where that
+            signal moves: the noise of a gyro times 57.3 is as large as that of an attitude, and
+            in hours of standstill there are windows in which one looks like the other.
     """
 
     span_s: float
     floor: float
     degree: int = 1
+    factors: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -84,11 +90,13 @@ def weigh(
     table = np.stack([signal, *explanations.values()], axis=1)
     known: BoolArray = np.logical_not(np.isnan(table).any(axis=1))
     evidence = np.zeros(len(explanations))
+    least = MOVES * look.floor * np.array([look.factors.get(name, 0.0) for name in explanations])
     for part in windows(times, look.span_s):
         rows = table[part][known[part]]
         if rows.shape[0] >= max(FEWEST, 0.9 * (part.stop - part.start)):
             left = detrend(times[part][known[part]], rows, look.degree)
-            evidence += _score_window(left, look.floor)
+            moves = np.mean(left[:, 1:] ** 2, axis=0) >= least**2
+            evidence += np.where(moves, _score_window(left, look.floor), 0.0)
     found = dict(zip(explanations, evidence.tolist(), strict=True))
     right = found.pop(RIGHT)
     name = max(found, key=found.__getitem__)

@@ -1,14 +1,14 @@
 """Whether a recording is plausible: units, signs, gaps and spans of its channels."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.screening.second_sources import SECOND_DISTANCES, check_second_sources
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.encoder import check_distance
-from floatref.values.encoder_direction import check_direction
 from floatref.values.needs import DISTANCE, HEIGHT, VERTICAL_FORCES, Needs, nominal_needs
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import Summary, every, first_where, longest_gap
@@ -73,9 +73,6 @@ MISREADINGS = (
 )
 """Mean of a vertical accelerometer, its tolerance, the meaning, and the key of a channel map."""
 
-SECOND_DISTANCES = ("wheel_distance", "optical_distance")
-"""Distances beside the encoder's, which may not decrease either."""
-
 Examine = Callable[[Channel, float], tuple[str, ...]]
 """A function that examines a channel at a profile interval in m, as `examine_channel` does."""
 
@@ -104,7 +101,8 @@ def examine(
     interval_m = recording.setup.profile_interval_m
     warnings = [warning for channel in needed for warning in look(channel, interval_m)]
     _check_spans(recording)
-    return (*warnings, *_check_second_distances(recording, needed), *_unused_setup(recording))
+    seconds = check_second_sources(recording, needed)
+    return (*warnings, *seconds, *_unused_setup(recording))
 
 
 def _examine(channel: Channel, interval_m: float) -> Iterator[str]:
@@ -119,17 +117,6 @@ def _examine(channel: Channel, interval_m: float) -> Iterator[str]:
         yield from check_distance(channel, summary, interval_m)
     else:
         check_motion(channel, summary)
-
-
-def _check_second_distances(recording: Recording, needed: Sequence[Channel]) -> Iterator[str]:
-    """Yield a warning for each second distance that goes back and that no stage reads."""
-    read = {channel.id for channel in needed}
-    for channel in recording.channels:
-        if channel.id.name in SECOND_DISTANCES and channel.id not in read:
-            try:
-                check_direction(channel, most=0.0)
-            except InputError as error:
-                yield f"{error}; it is not used"
 
 
 def _check_missing(channel: Channel, summary: Summary) -> Iterator[str]:

@@ -104,7 +104,8 @@ def _attitude(readings: Readings | None, angles: FloatArray, row: int) -> Eviden
     explained = {**axes(own, other, yaw), "deg": DEGREES * own, "-deg": -DEGREES * own}
     explained |= readings.delay(angles[row])
     apart = float(np.median(np.diff(readings.times))) if readings.times.size > 1 else 0.0
-    look = Look(max(ATTITUDE.span_s, READINGS * apart), ATTITUDE.floor)
+    span_s = max(ATTITUDE.span_s, READINGS * apart)
+    look = Look(span_s, ATTITUDE.floor, factors={"deg": DEGREES, "-deg": DEGREES})
     return weigh(readings.times, readings.values, explained, look)
 
 

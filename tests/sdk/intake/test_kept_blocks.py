@@ -5,9 +5,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from floatref.engine import flow
 from floatref.engine.axis_place import Place
 from floatref.engine.run import run
+from floatref.intake import tape
 from floatref.intake.kept_blocks import KeptBlocks
 from floatref.stages.signals import ELEVATION
 from floatref.values.block import Block
@@ -19,21 +19,21 @@ NAME = ChannelId(ELEVATION, "main")
 @settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.integers(1, 30), min_size=1, max_size=6), st.integers(0, 2**31))
 def test_they_give_back_what_a_tape_gives_back(monkeypatch, sizes, seed):
-    monkeypatch.setattr(flow, "IN_MEMORY", 64)
+    monkeypatch.setattr(tape, "IN_MEMORY", 64)
     rng, first = np.random.default_rng(seed), 0
-    with flow.Tape() as tape, KeptBlocks() as kept:
+    with tape.Tape() as other, KeptBlocks() as kept:
         for size in sizes:
             values = rng.standard_normal(2 * size)[::2]
             flags = rng.integers(0, 4, size).astype(np.uint8)
-            for each in (tape, kept):
+            for each in (other, kept):
                 each.append(Block(first, {NAME: values}, flags={NAME: flags}))
             first += size
         number = int(rng.integers(len(sizes)))
-        for each in (tape, kept):
+        for each in (other, kept):
             block = each.read(number)
             each.rewrite(number, block.setting({NAME: -block[NAME]}))
-        assert len(tape) == len(kept)
-        for one, two in zip(tape.forward(), kept.forward(), strict=True):
+        assert len(other) == len(kept)
+        for one, two in zip(other.forward(), kept.forward(), strict=True):
             assert one.first == two.first
             np.testing.assert_array_equal(one[NAME], two[NAME])
             np.testing.assert_array_equal(one.flags[NAME], two.flags[NAME])
@@ -47,9 +47,10 @@ def test_they_give_back_what_a_tape_gives_back(monkeypatch, sizes, seed):
 @pytest.mark.parametrize("pipeline", ["temporal-adaptive-hpf", "temporal-hpf"])
 def test_no_sample_of_a_window_is_written_to_disk(steady, monkeypatch, pipeline):
     def refuse(*_):
-        raise AssertionError("a spool was opened")
+        raise AssertionError("a file was opened")
 
     whole = run(steady(), pipeline)
-    monkeypatch.setattr(flow, "_spool", refuse)
+    monkeypatch.setattr(tape, "_open", refuse)
+    monkeypatch.setattr(tape, "IN_MEMORY", 0)
     window = run(steady(), pipeline, place=Place(-np.inf))
     assert window.profile.length_m == pytest.approx(whole.profile.length_m, abs=0.1)

@@ -96,7 +96,7 @@ def test_a_point_on_a_count_belongs_to_that_count():
 def test_reading_between_samples_is_linear():
     y = np.empty(3)
     sample, part = np.array([0, 1, 2]), np.array([1.0, 0.5, 0.25])
-    motion.read_at(np.array([1.0, 3.0, 7.0]), sample, part, y)
+    motion.read_at(1.0, np.array([3.0, 7.0]), sample, part, y)
     assert y.tolist() == [1.0, 2.0, 4.0]
 
 

@@ -86,6 +86,25 @@ def test_what_is_below_the_floor_is_not_heard(seed: int, small: float) -> None:
     assert (evidence.right, evidence.wrong) == (0.0, 0.0)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_times_a_factor_shows_no_unit_however_long_it_stands(seed: int) -> None:
+    """The noise of a gyro times 57.3 is as large as that of an attitude, for half an hour."""
+    times, factor, floor = np.arange(18_000) / 10.0, 57.3, 2e-4
+    # Angles wander: they are sums of what a gyro errs by, and a receiver's are smoothed.
+    draw = 0.2 * floor * np.cumsum(np.random.default_rng(seed).standard_normal((2, times.size)), 1)
+    own, attitude = 0.2 * draw[0], 0.2 * factor * draw[1]
+    explanations = explained(own, 0.0 * own) | {"deg": factor * own, "-deg": -factor * own}
+    factors = {"deg": factor, "-deg": factor}
+    assert weigh(times, attitude, explanations, Look(3.0, floor)).certain
+    evidence = weigh(times, attitude, explanations, Look(3.0, floor, factors=factors))
+    assert (evidence.right, evidence.wrong) == (0.0, 0.0)
+    moves = 10.0 * floor * np.sin(2.0 * times)
+    moving = explained(moves, 0.0 * own) | {"deg": factor * moves, "-deg": -factor * moves}
+    found = weigh(times, factor * moves + attitude, moving, Look(3.0, floor, factors=factors))
+    assert found.certain
+    assert found.name == "deg"
+
+
 @laws
 @given(seed=st.integers(0, 999), share=st.floats(0.5, 1.0))
 def test_windows_with_a_gap_are_passed_over(seed: int, share: float) -> None:

@@ -65,6 +65,19 @@ def test_a_second_distance_that_decreases_is_a_warning_since_nothing_reads_it(na
     assert re.fullmatch(rf"channel {name}: sample 1 goes back by 0\.1 m .*; it is not used", line)
 
 
+@pytest.mark.parametrize("speed", [90.1, -1e200, 1.7e308])
+def test_a_speed_by_gnss_that_no_profiler_reaches_is_a_warning(speed: float) -> None:
+    values = good()
+    speeds = np.full(values["distance"].size, 20.0)
+    assert examine(recorded(values | {"gnss_speed": speeds})) == ()
+    speeds[7] = speed
+    (line,) = examine(recorded(values | {"gnss_speed": speeds}))
+    assert line == (
+        f"channel gnss_speed: sample 7 is {speed:.4g} m/s, faster than any profiler (90 m/s); "
+        "such samples are not used"
+    )
+
+
 FORCE, HEIGHT, DISTANCE = "vertical_specific_force", "height", "distance"
 REFUSED: list[tuple[str, Callable[[np.ndarray], Any], str]] = [
     (FORCE, lambda a: a / 9.80665,
@@ -219,7 +232,10 @@ def test_a_distance_in_km_and_unused_geometry_are_warnings() -> None:
     values[DISTANCE] /= 1000
     setup = Setup(tracks={"main": TrackSetup(), "rigth": TrackSetup()})
     slow, unused = examine(recorded(values, setup=setup))
-    assert slow == "channel distance: 0.3999 m in 20 s; if the distance is in km, multiply by 1000"
+    assert slow == (
+        "channel distance: 0.3999 m in 20 s, at most 0.02 m/s; if the distance is in km, "
+        "multiply by 1000"
+    )
     assert unused == "setup.tracks.rigth: only main have channels; its offsets are not used"
 
 

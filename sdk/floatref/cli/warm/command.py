@@ -1,7 +1,6 @@
 """`floatref warm`: what pipelines compile, compiled before the first recording is there."""
 
-import subprocess
-import sys
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from time import perf_counter
@@ -9,10 +8,18 @@ from time import perf_counter
 import click
 
 from floatref.cli.printing import print_json, print_table
+from floatref.cli.warm.children import Children
 from floatref.engine.choosing import BEST
 from floatref.engine.plugins import plugins
 from floatref.errors import InputError
 from floatref.files.scratch import scratch_folder
+from floatref.files.sources import name_errors
+from floatref.kernels.compiling import stores_code
+
+NOT_STORED = (
+    "nothing was stored, numba finds no folder for its cache; name one that can be written in "
+    "NUMBA_CACHE_DIR"
+)
 
 
 @click.command("warm")
@@ -39,25 +46,33 @@ def warm(pipelines: tuple[str, ...], every: bool, jobs: int, as_json: bool) -> N
     names = list(known) if every else list(dict.fromkeys(pipelines or (name for name, _ in BEST)))
     for name in names:
         plugins().pipeline(name)
-    with scratch_folder("warm") as folder, ThreadPoolExecutor(jobs) as pool:
-        taken = list(pool.map(lambda name: _warm_in_process(name, folder), names))
+    taken = _warm_all(names, jobs)
+    if not stores_code():
+        click.echo(f"Warning: {NOT_STORED}", err=True)
     if as_json:
         print_json({"pipelines": [{"pipeline": n, "wall_s": t} for n, t in taken]})
     else:
         print_table("Warm", ("pipeline", "s"), [[n, f"{t:.1f}"] for n, t in taken])
 
 
-def _warm_in_process(name: str, folder: Path) -> tuple[str, float]:
+def _warm_all(names: Sequence[str], jobs: int) -> list[tuple[str, float]]:
+    """Return each of the pipelines ``names`` and its time in s; all ends with the first error."""
+    children = Children()
+    with scratch_folder("warm") as folder, ThreadPoolExecutor(jobs) as pool:
+        try:
+            return list(pool.map(lambda name: _warm_in_process(children, name, folder), names))
+        except BaseException:
+            children.end()
+            raise
+
+
+def _warm_in_process(children: Children, name: str, folder: Path) -> tuple[str, float]:
     """Process the made-up run in a process of its own; return the pipeline and the time in s."""
     from floatref.cli.warm.made_up_run import made_up_recording
     from floatref.files import write_recording
 
     run, begin = folder / f"{name}-run", perf_counter()
     write_recording(made_up_recording(name), run)
-    words = ["process", str(run), "--pipeline", name, "--out", str(folder / name), "--json"]
-    command = [sys.executable, "-P", "-m", "floatref", *words]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
-        raise InputError(f"pipeline {name}: {lines[-1].removeprefix('Error: ')}")
+    with name_errors(f"pipeline {name}"):
+        children.run(["process", str(run), "--pipeline", name, "--out", str(folder / name)])
     return name, perf_counter() - begin

@@ -156,6 +156,8 @@ def within(spans: IndexArray, low: int, high: int) -> BoolArray | None:
 
     ``spans`` are in order and do not overlap.
     """
+    if not spans.size:
+        return None
     begin, end = np.searchsorted(spans[:, 1], low, "right"), np.searchsorted(spans[:, 0], high)
     if begin >= end:
         return None

@@ -65,20 +65,24 @@ class EncoderPath:
 
     def ways(self) -> Records:
         """Return the way to every knot, shape (k,), of type `WAY`."""
-        values, knots = self.channel.values, self.knots
+        knots = self.knots
         timed = "at", "step", "before_step", "front", "gap", "after_gap"
         t = {name: times_at(self.channel, knots[name]) for name in timed}
         ways = new_records(len(knots), WAY)
         ways["t"], ways["far"], ways["steps"] = t["at"], self.distance, knots["steps"]
-        ways["step"] = values[knots["step"]] - values[knots["front"]]
+        ways["step"] = self._between("front", "step")
         ways["step_s"] = t["step"] - t["before_step"]
         ways["since_s"] = t["step"] - t["front"]
         ways["held_s"] = t["before_step"] - t["front"]
         ways["gap_t"], ways["gap_s"] = t["gap"], t["after_gap"] - t["gap"]
-        gap = values[knots["after_gap"]] - values[knots["gap"]]
-        ways["gap"] = np.maximum(gap, 0.0)
+        ways["gap"] = np.maximum(self._between("gap", "after_gap"), 0.0)
         ways["hidden"][-1:] = self.usual_m
         return ways
+
+    def _between(self, first: str, behind: str) -> FloatArray:
+        """Return the distance in m from one field of every knot to another."""
+        values = self.channel.values
+        return take(values, self.knots[behind]) - take(values, self.knots[first])
 
     def between(self, chosen: BoolArray, before: str, behind: str) -> IndexArray:
         """Return the samples between two fields of the ``chosen`` knots, shape (k, 2).
@@ -99,7 +103,7 @@ def times_at(channel: Channel, index: IndexArray) -> FloatArray:
     """Return the times in s of samples ``index`` of ``channel``."""
     clock = channel.clock
     if isinstance(clock, StampedClock):
-        return clock.times_s[index]
+        return take(clock.times_s, index)
     return np.asarray(clock.start_s + index / float(clock.rate))
 
 

@@ -9,7 +9,7 @@ from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.needs import FORCE, HEIGHT
 from floatref.values.recording import Channel
-from floatref.values.scanning import chunks
+from floatref.values.scanning import chunks, take
 
 SLOWEST_HZ = 1000.0
 """At this rate and above, an accelerometer's own bandwidth spreads a shock over several samples."""
@@ -35,14 +35,15 @@ def find_spikes(channel: Channel) -> Damage:
     least = LEAST.get(channel.id.name)
     if least is None or channel.mean_rate_hz < SLOWEST_HZ or channel.values.size < 3:
         return Damage()
-    steep = [
-        (first, part) for first, part in chunks(channel.values, overlap=2) if _leaps(part, least)
-    ]
+    values = channel.values
+    steep = {first for first, part in chunks(values, overlap=2) if _leaps(part, least)}
     if not steep:
         return Damage()
-    least = max(least, UNUSUAL * _usual(channel.values))
-    at = np.concatenate([first + 1 + _spikes(part, least) for first, part in steep])
-    if not 0 < at.size <= MOST * channel.values.size:
+    least = max(least, UNUSUAL * _usual(values))
+    # A second reading: pieces that are kept from the first would keep their file in memory.
+    again = ((first, part) for first, part in chunks(values, overlap=2) if first in steep)
+    at = np.concatenate([first + 1 + _spikes(part, least) for first, part in again])
+    if not 0 < at.size <= MOST * values.size:
         return Damage()
     spans: IndexArray = np.stack([at, at + 1], axis=1)
     line = describe_damage(channel, spans, "leaves its neighbours and returns at once")
@@ -63,7 +64,8 @@ def _usual(values: FloatArray) -> float:
     """Return the median distance of a sample from the mean of its neighbours, repeats left out."""
     stride = max(1, values.size >> 16)
     index = np.arange(1, values.size - 1, stride)
-    off = np.abs(values[index] - 0.5 * (values[index - 1] + values[index + 1]))
+    before, here, after = (take(values, index + k) for k in (-1, 0, 1))
+    off = np.abs(here - 0.5 * (before + after))
     off = off[np.isfinite(off) & (off > 0)]
     return float(np.median(off)) if off.size else 0.0
 

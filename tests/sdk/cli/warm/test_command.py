@@ -12,6 +12,7 @@ from click.testing import CliRunner
 
 from floatref import pipelines, process, write_recording
 from floatref.cli.main import main
+from floatref.cli.warm import command
 from floatref.cli.warm.made_up_run import made_up_recording
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
@@ -65,3 +66,14 @@ def test_what_cannot_be_warmed_is_one_line(words: tuple[str, ...], line: str) ->
     assert done.exit_code == 2
     assert done.stderr.startswith(f"Error: {line}")
     assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("stored", [True, False])
+def test_a_line_says_that_nothing_was_stored(stored: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(command, "_warm_all", lambda names, jobs: [(name, 1.0) for name in names])
+    monkeypatch.setattr(command, "stores_code", lambda: stored)
+    done = CliRunner().invoke(main, ["warm", PIPELINE, "--json"])
+    assert done.exit_code == 0
+    assert [each["pipeline"] for each in json.loads(done.stdout)["pipelines"]] == [PIPELINE]
+    lines = [] if stored else [f"Warning: {command.NOT_STORED}"]
+    assert done.stderr.splitlines() == lines

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from floatref.kernels.compilation.garbage import CollectorPause
 from floatref.kernels.compiling import compiled
-from floatref.kernels.garbage import CollectorPause
 
 
 @given(st.lists(st.booleans(), max_size=20), st.booleans())
