@@ -1,15 +1,16 @@
 """Time the stages of the C library beside the compiled kernels of the SDK, in turns, in one run.
 
-The library is built from its amalgamation by ``cc -O3 -march=native``, or with the flags that are
-given, twice: with ``-ffp-contract=off``, as it gives the bits of the SDK's equations, and with
-``-ffp-contract=fast``, which fuses products and sums as the kernels do. Prints ns per sample of
-both and of the kernels, the lowest median of five passes, and the median of the ratios of
-neighbours; below 1 the C library is faster. Samples of the IRI are points. Arrays have 16000
-samples, a second of a wheel path, so that a call from Python, which is not the library's, takes
-0.03 ns of a sample and less; they are in the cache. Run as
+The library is built from its amalgamation by ``cc -O3 -march=native``, or by the compiler ``CC``
+and with the flags that are given, twice: with ``-ffp-contract=off``, as it gives the bits of the
+SDK's equations, and with ``-ffp-contract=fast``, which fuses products and sums as the kernels do.
+Prints ns per sample of both and of the kernels, the lowest median of five passes, and the median of
+the ratios of neighbours; below 1 the C library is faster. Samples of the IRI are points. Arrays
+have 16000 samples, a second of a wheel path, so that a call from Python, which is not the
+library's, takes 0.03 ns of a sample and less; they are in the cache. Run as
 ``python tests/benchmarks/bench_c_library.py``.
 """
 
+import os
 import re
 import statistics
 import subprocess
@@ -35,6 +36,7 @@ from floatref.values.arrays import FloatArray, new_record
 COUNT, REPEATS, ROUNDS, PASSES = 16_000, 12, 15, 5
 CONTRACTS = ("off", "fast")
 RATE_HZ, COUNT_M, INTERVAL_M, WINDOW = 16_000.0, 0.001, 0.025, 800
+COMPILER = os.environ.get("CC", "cc")
 Call = Callable[[], object]
 
 
@@ -45,11 +47,11 @@ class Library:
         """Build it in ``folder``, which is made."""
         folder.mkdir()
         amalgamation.main([str(folder)])
-        command = ["cc", "-std=c99", *flags, "-fPIC", "-shared", "-o", f"{folder}/c.so"]
+        command = [COMPILER, "-std=c99", *flags, "-fPIC", "-shared", "-o", f"{folder}/c.so"]
         subprocess.run([*command, f"{folder}/floatref.c", "-lm"], check=True)
         text = (folder / "floatref.h").read_text(encoding="utf-8")
         plain = re.sub(r"^#include .*$", "", text, flags=re.M)
-        command = ["cc", "-E", "-P", "-DFR_API=", "-"]
+        command = [COMPILER, "-E", "-P", "-DFR_API=", "-"]
         found = subprocess.run(command, input=plain, capture_output=True, text=True, check=True)
         self.ffi = cffi.FFI()
         self.ffi.cdef(found.stdout)
@@ -193,7 +195,7 @@ def adaptive(
         varying.high_pass_12(h, z, c, filters[2], filters[3], False)
         np.subtract(r, z, out=z)
         found = motion.find_points(distance, 1e9, INTERVAL_M, 0, sample, part)
-        motion.read_at(z, sample[:found], part[:found], points[:found])
+        motion.read_at(z[0], z[1:], sample[:found], part[:found], points[:found])
 
     return mine, theirs
 
@@ -219,7 +221,8 @@ def main(flags: list[str]) -> None:
         # The memory of the objects is that of the libraries, which therefore stay.
         libraries = [Library(Path(folder) / c, [*flags, f"-ffp-contract={c}"]) for c in CONTRACTS]
         made = [pairs(library) for library in libraries]
-        print(f"cc {' '.join(flags)}; ns per sample of C, C fused, numba; ratios of C to numba")
+        built = " ".join([COMPILER, *flags])
+        print(f"{built}; ns per sample of C, C fused, numba; ratios of C to numba")
         for name, (exact, theirs) in made[0].items():
             calls = [repeated(call) for call in (exact, made[1][name][0], theirs)]
             runs = [in_turns(*calls, rounds=ROUNDS) for _ in range(PASSES)]

@@ -25,12 +25,14 @@ from kalman_task import TRACK, Prepared, Task
 from kind_drives import KIND
 from timing import RATE_HZ, in_turns, line, ratio, report_peer, report_start
 
+import floatref
 from floatref.estimators.kalman import Noise, Plan
 from floatref.estimators.models.kalman_values import FORGET
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
 from floatref_conformance.proving_ground.simulate import simulate
 
 PLANS = {"kalman-smoother": Plan(reflects=False), "kalman-smoother-reflection": Plan()}
+WHOLE = "kalman-smoother-reflection"
 SOURCES = Path(__file__).with_name("kalman_c")
 SEVEN_STATES = Noise(gnss_height_walk=0.0, lean_rad=0.0)
 """The drift of the GNSS height and the lean are nothing: the model of appendix C is left."""
@@ -121,10 +123,13 @@ def main(length_m: float) -> None:
     drives = {name: simulate(s).recording for name, s in (("72 km/h", constant), ("stop", stop))}
     with tempfile.TemporaryDirectory(prefix="floatref-kalman-") as folder:
         for name, recording in drives.items():
-            report_stage(Path(folder), name, Prepared.of(recording))
+            prepared = Prepared.of(recording)
+            report_stage(Path(folder), name, prepared)
+            (whole,) = in_turns(lambda r=recording: floatref.process(r, WHOLE))
+            print(f"  whole {line(whole, prepared.samples)}    {WHOLE}, in memory", flush=True)
     report_peers(Prepared.of(drives["72 km/h"]))
     short = simulate(Scenario(length_m=100.0, tracks=(TRACK,), **KIND)).recording
-    report_start(short, "kalman-smoother-reflection")
+    report_start(short, WHOLE)
 
 
 if __name__ == "__main__":

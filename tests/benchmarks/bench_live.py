@@ -3,11 +3,13 @@
 A simulated loop of ten minutes is driven again and again, see `live_loop`; pieces of 10 ms are
 pushed. `--hours` pushes as fast as the stream takes the samples, and prints the multiple of real
 time, by the clock and by the processor, and memory, threads, open files and gaps every quarter of
-an hour. `--paced` pushes at real time, as a vehicle does, and prints how long the pushes took.
-Run as
+an hour. `--paced` pushes at real time, as a vehicle does, and prints how long the pushes took, and
+how long without the pauses of the machine, see `machine_pauses`; with `--real-time` the thread that
+pushes has a priority before all that have none. Run as
 
     python tests/benchmarks/bench_live.py --pipeline NAME --hours H [--push-ms MS]
-    python tests/benchmarks/bench_live.py --pipeline NAME --paced --minutes M [--freeze]
+    python tests/benchmarks/bench_live.py --pipeline NAME --paced [--minutes M] [--freeze]
+        [--real-time]
 
 `--apart` prints in place of that how far `process(as_live=True)` is from the whole run, for every
 pipeline, on drives with stops.
@@ -19,12 +21,15 @@ import os
 import resource
 import threading
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from kind_drives import KIND
 from live_loop import PUSH_S, Loop, loop_for
+from machine_pauses import measured_pauses
+from numpy.typing import NDArray
 
 import floatref
 from floatref.engine.axis_place import Place
@@ -36,6 +41,8 @@ from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import simulate
 
 QUARTER_S = 900.0
+PRIORITY = 5
+"""Of a caller in real time."""
 FAMILIES = {
     "no stop": {"manoeuvre": "constant"},
     "a stop of 5 s in each km": {"manoeuvre": "stop", "stops": 6, "stop_spacing_m": 1000.0},
@@ -104,9 +111,11 @@ def drive(given: argparse.Namespace) -> None:
     stream, seen, push_s = start(given, loop), Seen(), 1e-3 * given.push_ms
     seconds, said = 3600.0 * given.hours, QUARTER_S
     clocks = time.perf_counter, time.process_time, time.thread_time
-    begin = [clock() for clock in clocks]
+    begin, pushed = [clock() for clock in clocks], 0.0
     for number, piece in enumerate(loop.pushes(seconds, push_s)):
+        before = time.thread_time()
         stream.push(piece)
+        pushed += time.thread_time() - before
         if number * push_s >= said:
             seen.add(stream.ready())
             print(f"  {number * push_s:7.0f} s: {state_of(loop, seen)}", flush=True)
@@ -118,28 +127,55 @@ def drive(given: argparse.Namespace) -> None:
     print(f"  {seconds:7.0f} s: {state_of(loop, seen)}")
     for line in sorted(seen.lines):
         print(f"  {line}")
-    print(f"{given.pipeline}, pushes of {given.push_ms:g} ms: {seconds / wall:.0f} x real time by "
-          f"the clock, {seconds / own:.0f} x in processor time, {seconds / (own - caller):.0f} x "
-          f"the thread's alone")  # fmt: skip
+    thread = own - caller
+    rates = {
+        "real time by the clock": wall,
+        "in processor time": own,
+        "without the making of the samples": thread + pushed,
+        "the thread's alone": thread,
+    }
+    figures = ", ".join(f"{seconds / taken:.0f} x {of_what}" for of_what, taken in rates.items())
+    print(f"{given.pipeline}, pushes of {given.push_ms:g} ms: {figures}")
 
 
 def pace(given: argparse.Namespace) -> None:
     """Push at real time, and print how long the pushes took."""
     loop = loop_for(given.pipeline)
-    stream, seen, taken = start(given, loop), Seen(), []
+    stream, seen = start(given, loop), Seen()
+    if given.real_time:
+        # The caller alone: a thread of the stream with the same priority keeps its processor for
+        # as long as a kernel runs, and a caller on that processor waits.
+        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(PRIORITY))
+    with measured_pauses() as pauses:
+        spans = np.array(list(paced_pushes(given, loop, stream, seen)))
+    seen.add(stream.finish())
+    print(f"{given.pipeline}, {given.minutes:g} minutes at real time: {state_of(loop, seen)}")
+    taken = spans[:, 1] - spans[:, 0]
+    show_pushes("push of 10 ms", taken)
+    show_pushes("without pauses of the machine", taken - pauses.shares(*spans.T))
+    lasted = 1e3 * np.array([end - begin for begin, end in pauses.spans] or [0.0])
+    print(f"  the machine paused {len(pauses.spans)} times, at most {lasted.max():.1f} ms, and "
+          f"{1e-3 * lasted.sum():.1f} s in all")  # fmt: skip
+
+
+def paced_pushes(
+    given: argparse.Namespace, loop: Loop, stream: floatref.LiveStream, seen: Seen
+) -> Iterator[tuple[float, float]]:
+    """Yield when each push began and ended."""
     begin = time.perf_counter()
     for number, piece in enumerate(loop.pushes(60.0 * given.minutes)):
         time.sleep(max(0.0, begin + number * PUSH_S - time.perf_counter()))
         before = time.perf_counter()
         stream.push(piece)
-        taken.append(time.perf_counter() - before)
+        yield before, time.perf_counter()
         if number % 50 == 25:
             seen.add(stream.ready())
-    seen.add(stream.finish())
-    print(f"{given.pipeline}, {given.minutes:g} minutes at real time: {state_of(loop, seen)}")
-    ms = 1e3 * np.array(taken)
+
+
+def show_pushes(name: str, taken_s: NDArray[np.float64]) -> None:
+    ms = 1e3 * taken_s
     p50, p99, p999 = np.quantile(ms, [0.5, 0.99, 0.999])
-    print(f"  push of 10 ms: median {p50:.3f} ms, p99 {p99:.2f} ms, p99.9 {p999:.2f} ms, largest "
+    print(f"  {name}: median {p50:.3f} ms, p99 {p99:.2f} ms, p99.9 {p999:.2f} ms, largest "
           f"{ms.max():.1f} ms, first {ms[0]:.3f} ms; above 50 ms: {(ms > 50.0).sum()} of "
           f"{ms.size}")  # fmt: skip
 
@@ -178,6 +214,7 @@ def main() -> None:
     parser.add_argument("--push-ms", type=float, default=1e3 * PUSH_S)
     parser.add_argument("--paced", action="store_true")
     parser.add_argument("--minutes", type=float, default=60.0)
+    parser.add_argument("--real-time", action="store_true", help="a real-time caller")
     parser.add_argument("--freeze", action="store_true", help="gc.freeze() behind the start")
     parser.add_argument("--no-provisional", action="store_true")
     parser.add_argument("--apart", action="store_true")

@@ -15,6 +15,8 @@ import numpy as np
 import floatref
 
 RATE_HZ, ROUNDS, LONG = 16_000.0, 300, 1_600_000
+STEP_M = 15.0 / RATE_HZ
+"""What 15 m/s travel in a sample."""
 
 
 def high_pass(stage: floatref.HighPass, x: np.ndarray) -> None:
@@ -31,14 +33,21 @@ def adaptive(stage: floatref.AdaptiveHighPass, x: np.ndarray, speed: np.ndarray)
     stage.height(x, speed)
 
 
+def travel_on(stage: floatref.TravelSpeed, distance: np.ndarray) -> None:
+    """Give the chunk, then move it on by its length: a distance that goes back is refused."""
+    stage.of(distance)
+    distance += distance[-1] + STEP_M - distance[0]
+
+
 def calls(x: np.ndarray, speed: np.ndarray) -> dict[str, Callable[[], object]]:
     """Return what each class does for one chunk."""
-    travel, fixed = floatref.TravelSpeed(RATE_HZ), floatref.HighPass(RATE_HZ)
+    travel, distance = floatref.TravelSpeed(RATE_HZ), STEP_M * np.arange(x.size)
+    fixed = floatref.HighPass(RATE_HZ)
     varying, matched = floatref.AdaptiveHighPass(RATE_HZ), floatref.MatchedHighPass(RATE_HZ)
     control, limit = floatref.LocalSuppression(RATE_HZ), floatref.TimerDistortion(0.025)
     reflection, steps = floatref.HeightReflection(), np.full(x.size, 0.002)
     return {
-        "TravelSpeed": lambda: travel.of(x),
+        "TravelSpeed": lambda: travel_on(travel, distance),
         "HighPass, three calls": lambda: high_pass(fixed, x),
         "AdaptiveHighPass, three calls": lambda: adaptive(varying, x, speed),
         "MatchedHighPass": lambda: matched.reference_height(x, x, speed),

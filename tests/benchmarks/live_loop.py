@@ -64,7 +64,10 @@ class _Track:
         self.name, self.values = str(channel.id), channel.values
         self.times = channel.times_s if isinstance(channel.clock, StampedClock) else None
         self.size = 0 if self.times is not None else round(float(channel.clock.rate) * push_s)
-        self.push_s, self.lap_change = push_s, 0.0
+        self.lap_change = 0.0
+        if self.times is not None:
+            edges = np.arange(int(pieces * PUSH_S / push_s + 1e-9) + 1) * push_s
+            self.ends = np.searchsorted(self.times, edges).tolist()
         if channel.id.name in GOES_ON:
             end = pieces * PUSH_S
             last = np.searchsorted(channel.times_s, end)
@@ -76,10 +79,10 @@ class _Track:
         if self.times is None:
             part = self.values[at * self.size : (at + 1) * self.size]
             return part + lap * self.lap_change if lap and self.lap_change else part
-        ends = np.searchsorted(self.times, [at * self.push_s, (at + 1) * self.push_s])
-        if ends[0] == ends[1]:
+        first, end = self.ends[at], self.ends[at + 1]
+        if first == end:
             return None
-        part = slice(*ends)
+        part = slice(first, end)
         return self.times[part] + lap * lap_s, self.values[part] + lap * self.lap_change
 
 

@@ -49,6 +49,7 @@ ALLOWED = {
     "sdk/floatref/files/growing_profile.py:open": "a descriptor that is opened to append",
     "sdk/floatref/live/saved_state.py:load": "an opened stream",
     "sdk/floatref/live/session/peers.py:open": "the descriptor of standard input",
+    "sdk/floatref/live/session/run_lock.py:open": "the descriptor of a directory that is locked",
     "sdk/floatref/batch/work/task.py:read_text": "/proc/self/status",
     "adapters/floatref_adapters/formats/hdf5/child_process.py:read_text": "/proc/self/statm",
     "adapters/floatref_adapters/formats/mcap_log/mcap_reading.py:memmap": "a temporary file",
