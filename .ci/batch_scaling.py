@@ -16,7 +16,7 @@ from typing import Any
 
 ROOT = Path(__file__).parents[1]
 MEASURED = ROOT / "docs" / "data" / "batch.json"
-PAGES = ("batch-scaling.md", "performance.md")
+PAGES = ("batch-scaling.md", "performance-growth.md")
 PLACE = re.compile(r"(<!-- batch: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 NETWORK_KM = 10_000
 CALCULATED = (10, 100)

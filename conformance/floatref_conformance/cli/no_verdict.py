@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from floatref.cli.lazy import LazyGroup
+from floatref.cli.program.interrupts import Ending
 
 FAULT_OF_THE_SUITE = 3
 MISSING = {
@@ -61,7 +62,8 @@ class VerdictGroup(LazyGroup):
 def _no_verdict(ctx: click.Context | None) -> Iterator[None]:
     try:
         yield
-    except (click.ClickException, click.exceptions.Exit):
+    except (click.ClickException, click.exceptions.Exit, Ending):
+        # A signal just before or behind the command has ended the program, and said so.
         raise
     except BrokenPipeError:
         drop_output()

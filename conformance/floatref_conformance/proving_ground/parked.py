@@ -19,7 +19,11 @@ from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.sensors.noise import stream
 from floatref_conformance.proving_ground.staging import setup_of
 from floatref_conformance.proving_ground.vehicles.kinematics import Course, Sighted
-from floatref_conformance.proving_ground.vehicles.motion import BodyMotion, empty_rows
+from floatref_conformance.proving_ground.vehicles.motion import (
+    BodyMotion,
+    empty_rows,
+    stretches,
+)
 from floatref_conformance.proving_ground.vehicles.parameter_sets import find_vehicle
 
 FIRST_START_M, LAST_START_M = 455.0, 525.0
@@ -64,12 +68,14 @@ def park(scenario: Scenario) -> tuple[BodyMotion, Setup]:
     clock = UniformClock.of(scenario.rate_hz)
     count = int(drive.duration_s * scenario.rate_hz) + 1
     travel, shared, tracks = empty_rows(len(scenario.tracks), count)
-    text = drive.motion(clock.times(count))
-    travel[:] = text.distance, text.speed, text.acceleration
-    bounce = Bounce() if scenario.manoeuvre == "bounce" else None
+    body = Stationary(Bounce() if scenario.manoeuvre == "bounce" else None)
     above = [TrackSetup((0.0, floor.lateral_m[name], vehicle.sensor_z_m)) for name in setup.tracks]
     seen = Sighted.of(Course(), floor, above, vehicle.sensor_z_m)
-    seen.carry(_rows(Stationary(bounce), clock.times(count)), travel, tracks, shared)
+    for first, last in stretches(count):
+        part, times = slice(first, last), clock.times(last - first, first)
+        motion = drive.motion(times)
+        travel[:, part] = motion.distance, motion.speed, motion.acceleration
+        seen.carry(_rows(body, times), travel[:, part], tracks[:, :, part], shared[:, part])
     named = dict(zip(setup.tracks, tracks, strict=True))
     for name, plate in plates_of(scenario).items():
         _lay(plate, named[name], travel[0], shared)

@@ -107,7 +107,8 @@ def _faults(member: ZipInfo) -> Iterator[str]:
     kind = stat.S_IFMT(member.external_attr >> 16)
     if kind == stat.S_IFLNK:
         yield "is a link"
-    if member.is_dir() or kind == stat.S_IFDIR:
+    # `is_dir` of zipfile takes the last letter of the name, and there may be none.
+    if member.filename.endswith("/") or kind == stat.S_IFDIR:
         yield "is a folder"
     if member.orig_filename != member.filename or not NAME.fullmatch(member.filename):
         yield "is a path that may lead out of the archive"

@@ -39,14 +39,19 @@ NOISE = {
 """From settings to the names in `Noise`."""
 
 
-def condition(context: Context) -> Sequence[Stage]:
-    """Remove 1 g; LPF_B3 at 1000 Hz on both sensors where the rate allows it; add the speed."""
+def filter_sensors(context: Context) -> Sequence[Stage]:
+    """Remove 1 g; LPF_B3 at 1000 Hz on both sensors where the rate allows it."""
     stages: list[Stage] = [RemoveGravity()]
     if context.header.rate > basic_steps.LEAST_RATE_HZ:
         cutoff = basic_steps.cutoff_setting(context, "anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)
         stages += low_pass_b3(HEIGHT, cutoff)
-    return (*stages, TravelSpeed())
+    return stages
+
+
+def condition(context: Context) -> Sequence[Stage]:
+    """Do what `filter_sensors` does, and add the speed."""
+    return (*filter_sensors(context), TravelSpeed())
 
 
 def noise_of(context: Context) -> Noise:

@@ -21,6 +21,7 @@ STAGES: tuple[type[Stage], ...] = (
     butterworth.HighPassB3S2,
     butterworth.HighPassB3S1R,
     butterworth.HighPassB3S2R,
+    butterworth.LowPassB3,
     butterworth.LowPassB3S1,
     butterworth.LowPassB3S2,
     butterworth.LowPassB3S1R,

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import pi
 
 from floatref.builtin_pipelines import basic_steps
-from floatref.builtin_pipelines.chapter_6 import condition
+from floatref.builtin_pipelines.chapter_6 import filter_sensors
 from floatref.builtin_pipelines.laser_place import levers_of
 from floatref.estimators.kalman.inputs import IMU
 from floatref.estimators.levelling import Level
@@ -17,8 +17,7 @@ from floatref.stages.filters.lateness import Advance
 from floatref.stages.protocol import Stage
 from floatref.stages.resampling import ToDistance
 from floatref.stages.seams import Seams
-from floatref.stages.signals import ACCELERATION, HEIGHT, MISSING_SHARE, TRAVEL_SPEED
-from floatref.stages.speed import TravelSpeed
+from floatref.stages.signals import ACCELERATION, HEIGHT, MISSING_SHARE
 from floatref.stages.triggers import ToTime
 
 CONSTANTS = {
@@ -63,7 +62,7 @@ def _level(context: Context) -> Sequence[Stage]:
 
 def _estimate(context: Context) -> Sequence[Stage]:
     smoother = RoadPriorSmoother(_constants(context), context.setting("cutoff_wavelength_m"))
-    return smoother, Seams(), Drop(TRAVEL_SPEED)
+    return smoother, Seams()
 
 
 ROAD_PRIOR = (
@@ -83,7 +82,7 @@ ROAD_PRIOR = (
         },
         {
             "temporal_laser": _level,
-            "temporal_condition": condition,
+            "temporal_condition": filter_sensors,
             "temporal_estimate": _estimate,
         },
         signed=EXPECTED,
@@ -164,14 +163,14 @@ needs more, and a creeping vehicle less: its bias is as slow as a wave."""
 
 
 def _condition_levelled(context: Context) -> Sequence[Stage]:
-    """Level, carry heights; LPF_B3 at 1000 Hz on both where the rate allows it; add the speed."""
+    """Level, carry heights; LPF_B3 at 1000 Hz on both where the rate allows it."""
     levers = levers_of(context.header)
     stages: list[Stage] = [Level(context.setting("attitude_blend_s"), levers)]
     if context.header.rate > basic_steps.LEAST_RATE_HZ:
         cutoff = basic_steps.cutoff_setting(context, "anti_alias_hz")
         stages += low_pass_b3(ACCELERATION, cutoff)
         stages += low_pass_b3(HEIGHT, cutoff)
-    return (*stages, TravelSpeed())
+    return stages
 
 
 ROAD_PRIOR_IMU = (

@@ -17,6 +17,10 @@ from floatref.values.recording import Channel, Recording
 
 FIRST_REACH = 64
 """Samples around a time among which known ones are looked for first."""
+NEAREST = 5
+"""Samples around a time of which one or two may be wrong."""
+WRONG_M = 0.5
+"""A correction at one sample that differs from that around it by more, in m, is of that sample."""
 TIE = 1e-9
 """Share of an interval by which a distance may be beyond a point and still count as on it."""
 
@@ -61,9 +65,25 @@ def point_number(distance_m: float, interval_m: float) -> int:
 def offset_at(recorded: Recording, corrected: Recording, at_s: float) -> float:
     """Return by how many m the distance of ``corrected`` is ahead of the encoder's at a time.
 
-    It is exactly zero where nothing was corrected.
+    It is exactly zero where nothing was corrected. A wrong sample of the encoder there, which was
+    corrected, does not move the axis: the samples around it decide.
     """
-    return distance_at(corrected, at_s) - distance_at(recorded, at_s)
+    offset = distance_at(corrected, at_s) - distance_at(recorded, at_s)
+    if offset == 0.0:
+        return offset
+    times, _ = nearest_samples(recorded, at_s)
+    around = [distance_at(corrected, t) - distance_at(recorded, t) for t in times.tolist()]
+    usual = float(np.median(around)) if around else offset
+    return offset if abs(offset - usual) <= WRONG_M else usual
+
+
+def nearest_samples(recording: Recording, at_s: float) -> tuple[FloatArray, FloatArray]:
+    """Return times in s and distances in m of the `NEAREST` known samples around a time."""
+    channel: Channel = recording.channel(DISTANCE, recording.tracks[0])
+    times, values = _around(channel, at_s)
+    at = max(min(at_s, LATEST_S), -LATEST_S)
+    nearest = np.argsort(np.abs(times - at), kind="stable")[:NEAREST]
+    return times[nearest], values[nearest]
 
 
 def distance_at(recording: Recording, at_s: float) -> float:

@@ -1,131 +1,18 @@
 """The engine: passes blocks through stages, forward in one go, backward over the tape."""
 
-import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from functools import partial
 from itertools import groupby
-from tempfile import SpooledTemporaryFile, gettempdir
-from types import TracebackType
 from typing import TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
 
 from floatref.errors import FloatrefError, InputError, StageError
 from floatref.intake.kept_blocks import KeptBlocks
+from floatref.intake.tape import Tape
 from floatref.stages.protocol import Direction, Stage
-from floatref.values.arrays import FloatArray
-from floatref.values.block import Block, Event, Header
-from floatref.values.channels import ChannelId
+from floatref.values.block import Block, Header
 from floatref.values.innovations import Innovations
 
-IN_MEMORY = 64 * 2**20
-"""Bytes of samples up to which a tape is in memory; a longer one is on disk."""
-
-M = TypeVar("M", np.bool_, np.uint8)
-Packed = Mapping[ChannelId, bytes]
 Kept = Mapping[str, Mapping[str, Innovations]]
-
-
-class Tape:
-    """Blocks in order, with samples spooled to disk and masks packed."""
-
-    def __init__(self) -> None:
-        """Begin with an empty tape."""
-        self._spools: dict[ChannelId, SpooledTemporaryFile[bytes]] = {}
-        self._index: list[tuple[int, int, int]] = []
-        self._masks: list[tuple[Packed, Packed, tuple[Event, ...]]] = []
-        self._length = 0
-
-    def __enter__(self) -> "Tape":
-        """Use the tape; its files are removed at the end."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
-        """Remove the files."""
-        for spool in self._spools.values():
-            spool.close()
-
-    def __len__(self) -> int:
-        """Return the number of blocks."""
-        return len(self._index)
-
-    def append(self, block: Block) -> None:
-        """Write ``block`` at the end."""
-        self._index.append((block.first, self._length, len(block)))
-        self._masks.append(({}, {}, ()))
-        self._length += len(block)
-        self.rewrite(len(self._index) - 1, block)
-
-    def rewrite(self, number: int, block: Block) -> None:
-        """Write ``block``, of the same length, in place of block ``number``."""
-        _, start, length = self._index[number]
-        if len(block) != length:
-            raise ValueError(f"block {number} holds {length} samples, not {len(block)}")
-        for channel, values in block.values.items():
-            if channel not in self._spools:
-                self._spools[channel] = _spool()
-            _write(self._spools[channel], 8 * start, values)
-        if 8 * self._length * len(self._spools) > IN_MEMORY:
-            self._to_disk()
-        self._masks[number] = (_pack(block.fresh), _pack(block.flags), block.events)
-
-    def read(self, number: int) -> Block:
-        """Return block ``number``."""
-        first, start, length = self._index[number]
-        values = {}
-        for channel, spool in self._spools.items():
-            spool.seek(8 * start)
-            values[channel] = np.frombuffer(spool.read(8 * length))
-        fresh, flags, events = self._masks[number]
-        return Block(first, values, _unpack(fresh, np.bool_), _unpack(flags, np.uint8), events)
-
-    def forward(self) -> Iterator[Block]:
-        """Yield all blocks, the first one first."""
-        for number in range(len(self)):
-            yield self.read(number)
-
-    def _to_disk(self) -> None:
-        with _room():
-            for spool in self._spools.values():
-                spool.rollover()
-
-
-def _write(spool: SpooledTemporaryFile[bytes], at: int, values: FloatArray) -> None:
-    with _room():
-        spool.seek(at)
-        spool.write(np.ascontiguousarray(values).data)
-
-
-@contextmanager
-def _room() -> Iterator[None]:
-    """Name the full folder in an error."""
-    try:
-        yield
-    except OSError as error:
-        raise InputError(
-            f"{gettempdir()}: the run does not fit ({error.strerror}); free space there, or name "
-            "another folder in the environment variable TMPDIR"
-        ) from error
-
-
-def _spool() -> SpooledTemporaryFile[bytes]:
-    # Without its own size limit: the tape decides for all channels together.
-    return SpooledTemporaryFile()
-
-
-def _pack(masks: Mapping[ChannelId, NDArray[M]]) -> Packed:
-    return {channel: zlib.compress(mask.tobytes(), 1) for channel, mask in masks.items()}
-
-
-def _unpack(packed: Packed, kind: type[M]) -> dict[ChannelId, NDArray[M]]:
-    return {c: np.frombuffer(zlib.decompress(data), kind) for c, data in packed.items()}
 
 
 T = TypeVar("T")
@@ -140,11 +27,15 @@ def run(
     """Start all ``stages`` and return the last header and the resulting blocks.
 
     Nothing is processed until the blocks are read. Adjacent backward stages share one pass. What
-    is read again is on a ``tape``.
+    is read again is on a ``tape``; ``blocks`` that are no iterator are asked for again instead, as
+    a recording's are, whose samples are in its file.
     """
     for stage in stages:
         header = _guard(stage, partial(stage.start, header))
-    stream = iter(blocks)
+    if stages and stages[0].surveys and not isinstance(blocks, Iterator):
+        stream, stages = _survey_again(stages[0], blocks), stages[1:]
+    else:
+        stream = iter(blocks)
     for kind, group in groupby(stages, key=_kind):
         if kind == "forward":
             for stage in group:
@@ -211,7 +102,14 @@ def _survey(stage: Stage, blocks: Iterator[Block], kept: Tape | KeptBlocks) -> I
         for block in blocks:
             _guard(stage, partial(stage.survey, block))
             tape.append(block)
+        tape.turn()
         yield from _forward(stage, tape.forward())
+
+
+def _survey_again(stage: Stage, blocks: Iterable[Block]) -> Iterator[Block]:
+    for block in blocks:
+        _guard(stage, partial(stage.survey, block))
+    yield from _forward(stage, iter(blocks))
 
 
 def _backward(
@@ -220,6 +118,7 @@ def _backward(
     with kept as tape:
         for block in blocks:
             tape.append(block)
+        tape.turn()
         for number in reversed(range(len(tape))):
             tape.rewrite(number, _through(stages, tape.read(number)))
         for stage in stages:

@@ -32,6 +32,7 @@ from floatref.screening.findings import Screening
 from floatref.screening.imu_and_gnss import ImuUse
 from floatref.stages.protocol import Stage
 from floatref.values.block import Axis, Block
+from floatref.values.encoder import check_origins
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording, check_interval
 
@@ -104,6 +105,7 @@ def run(
     """
     order = _settle(plugins(), recording, pipeline, settings)
     order = replace(order, diagnostics=diagnostics, place=place)
+    check_origins(order.recording.channels)
     forward = leave_out_steps_back(order.recording)
     along = correct_distance(forward.recording, order.settings.get("slip_per_g"))
     if place is not None:
@@ -191,9 +193,12 @@ def _run_and_collect(
     order: _Order, source: Source, stages: list[Stage], progress: Progress | None
 ) -> Profile:
     """Pass the blocks through the stages and return the resulting profile."""
-    # A part of a longer run has a bounded length.
-    tape = flow.Tape if order.place is None else KeptBlocks
-    header, blocks = flow.run(stages, source.header, _report_progress(source, progress), tape)
+    read = _Reading(source, 1 + (order.place is None and stages[0].surveys), progress)
+    if order.place is None:
+        header, blocks = flow.run(stages, source.header, read)
+    else:
+        # A part of a longer run has a bounded length.
+        header, blocks = flow.run(stages, source.header, iter(read), KeptBlocks)
     room = int(source.distance_m / header.step) + 2 if header.axis is Axis.DISTANCE else 0
     profile = collect_profile(header, blocks, order.pipeline, order.settings, room)
     laser = record_laser(header.setup, header.tracks, stages)
@@ -206,12 +211,23 @@ def _run_and_collect(
     return profile
 
 
-def _report_progress(source: Source, progress: Progress | None) -> Iterator[Block]:
-    """Yield the blocks; ``progress`` is called with the fraction that is done."""
-    for block in source.blocks():
-        yield block
-        if progress is not None:
-            progress((block.first + len(block)) / source.length)
+@dataclass
+class _Reading:
+    """The blocks of ``source``, read ``passes`` times; ``progress`` gets the fraction of it."""
+
+    source: Source
+    passes: int
+    progress: Progress | None
+    begun: int = 0
+
+    def __iter__(self) -> Iterator[Block]:
+        """Yield the blocks; each time is one more pass."""
+        self.begun += 1
+        for block in self.source.blocks():
+            yield block
+            if self.progress is not None:
+                share = (block.first + len(block)) / self.source.length
+                self.progress((self.begun - 1 + share) / self.passes)
 
 
 def _bridge_gaps(order: _Order, result: Result, source: Source) -> Result:

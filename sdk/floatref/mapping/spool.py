@@ -7,7 +7,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.files.samples import SAMPLE, read_samples
-from floatref.files.scratch import make_scratch
+from floatref.files.scratch import make_scratch, remove_scratch
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.scanning import chunks
 
@@ -34,7 +34,7 @@ class Spool:
         """Remove the folder."""
         for column in self._columns:
             column.close()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        remove_scratch(self._folder)
 
     def check_room(self, samples: int) -> None:
         """Raise InputError unless the disk has room for ``samples``."""

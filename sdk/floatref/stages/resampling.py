@@ -8,7 +8,7 @@ from floatref.errors import InputError
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, TIME, TIME_STEP
-from floatref.values.arrays import LASTING, FlagArray, FloatArray, IndexArray
+from floatref.values.arrays import LASTING, FlagArray, FloatArray, IndexArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -55,16 +55,20 @@ class ToDistance(Stage):
             none = {ChannelId(TIME): np.empty(0)} if self.keep_time else {}
             points = Block(self.memory["next"], {**block.without(DISTANCE).values, **none})
             return self._but_last(points)
-        wide = self._after_carry(block)
-        distance = np.fmax.accumulate(wide[ChannelId(DISTANCE)])
+        own = block[ChannelId(DISTANCE)]
+        before, marks = self.memory["carry"] or _first(block, own[0])
+        distance = _farthest(before[ChannelId(DISTANCE)], own)
         sample, part = self._points(distance)
-        self.memory["carry"] = _sample(wide, -1, distance[-1])
+        wide = _flags_behind(block, marks)
+        self.memory["carry"] = _last(block, wide, distance[-1])
         first = self.memory["next"]
         self.memory["next"] = first + sample.size
-        values = {c: _at(x, sample, part) for c, x in wide.without(DISTANCE).values.items()}
+        others = block.without(DISTANCE).values
+        values = {c: _at(before[c], x, sample, part) for c, x in others.items()}
+        flags = self._flags(wide, tuple(others), distance.size, sample, part)
         if self.keep_time:
-            values[ChannelId(TIME)] = ((wide.first + sample - 1) + part) / self._rate
-        return self._but_last(Block(first, values, flags=self._flags(wide, sample, part)))
+            values[ChannelId(TIME)] = ((block.first + sample - 2) + part) / self._rate
+        return self._but_last(Block(first, values, flags=flags))
 
     def close(self) -> tuple[Block, ...]:
         """Return the last point, with the lasting flags of what came behind it."""
@@ -84,34 +88,25 @@ class ToDistance(Stage):
         self.memory["held"] = _part(joined, slice(len(joined) - 1, len(joined)))
         return _part(joined, slice(0, len(joined) - 1))
 
-    def _after_carry(self, block: Block) -> Block:
-        values, flags = self.memory["carry"] or _sample(block, 0, block[ChannelId(DISTANCE)][0])
-        blank = np.zeros(len(block), np.uint8)
-        marks = {c: flags_of(block, c) for c in block.values}
-        return Block(
-            block.first - 1,
-            {c: np.concatenate((values[c], x)) for c, x in block.values.items()},
-            flags={
-                c: np.concatenate((flags[c], blank if f is None else f))
-                for c, f in marks.items()
-                if f is not None or flags[c].any()
-            },
-        )
-
     def _flags(
-        self, wide: Block, sample: IndexArray, part: FloatArray
+        self,
+        wide: Mapping[ChannelId, FlagArray],
+        channels: tuple[ChannelId, ...],
+        count: int,
+        sample: IndexArray,
+        part: FloatArray,
     ) -> dict[ChannelId, FlagArray]:
         from floatref.kernels import motion
 
-        late = wide.flags.get(ChannelId(DISTANCE))
+        late = wide.get(ChannelId(DISTANCE))
         pending, found = self.memory["pending"], {}
         # The time of a point is as the encoder's distance.
         time = (ChannelId(TIME),) if self.keep_time else ()
-        for channel in (*wide.without(DISTANCE).values, *time):
-            own = [f for f in (wide.flags.get(channel), late) if f is not None]
+        for channel in (*channels, *time):
+            own = [f for f in (wide.get(channel), late) if f is not None]
             if not own and not pending.get(channel):
                 continue
-            marks = np.bitwise_or.reduce([np.zeros(len(wide), np.uint8), *own])
+            marks = np.bitwise_or.reduce(own or [np.zeros(count, np.uint8)])
             gathered = np.empty(sample.size, np.uint8)
             pending[channel] = motion.gather_flags(
                 marks, sample, part, int(LASTING), pending.get(channel, 0), gathered
@@ -156,16 +151,42 @@ class TimeStep(Stage):
         return block.setting({ChannelId(TIME_STEP): np.diff(times, prepend=before)})
 
 
-Carry = tuple[Mapping[ChannelId, FloatArray], Mapping[ChannelId, FlagArray]]
+Carry = tuple[dict[ChannelId, float], dict[ChannelId, int]]
+"""The values and the flags of one sample of every channel; without an entry 0 is the flag."""
 
 
-def _sample(block: Block, index: int, distance: float) -> Carry:
-    where = slice(index, None) if index == -1 else slice(index, index + 1)
-    values = {c: x[where].copy() for c, x in block.values.items()}
-    values[ChannelId(DISTANCE)] = np.array([distance])
-    blank = np.zeros(1, np.uint8)
-    flags = {c: block.flags[c][where].copy() if c in block.flags else blank for c in values}
-    return values, flags
+def _first(block: Block, distance: float) -> Carry:
+    """Return the first sample of ``block``, at a ``distance``."""
+    values = {c: float(x[0]) for c, x in block.values.items()}
+    flags = {c: int(f[0]) for c, f in block.flags.items()}
+    return {**values, ChannelId(DISTANCE): float(distance)}, flags
+
+
+def _last(block: Block, wide: Mapping[ChannelId, FlagArray], distance: float) -> Carry:
+    """Return the last sample of ``block``, whose flags are ``wide``, at a ``distance``."""
+    values = {c: float(x[-1]) for c, x in block.values.items()}
+    flags = {c: int(f[-1]) for c, f in wide.items()}
+    return {**values, ChannelId(DISTANCE): float(distance)}, flags
+
+
+def _flags_behind(block: Block, before: Mapping[ChannelId, int]) -> dict[ChannelId, FlagArray]:
+    """Return the flags of ``block``, behind those of the sample ``before``, where there are any."""
+    found = {}
+    for channel in block.values:
+        marks, mark = flags_of(block, channel), np.uint8(before.get(channel, 0))
+        if marks is not None or mark:
+            found[channel] = np.zeros(len(block) + 1, np.uint8)
+            found[channel][0] = mark
+            found[channel][1:] = 0 if marks is None else marks
+    return found
+
+
+def _farthest(before: float, distance: FloatArray) -> FloatArray:
+    from floatref.kernels import motion
+
+    found = np.empty(distance.size + 1)
+    motion.go_farther(before, frozen(distance), found)
+    return found
 
 
 def _join(before: Block, after: Block) -> Block:
@@ -186,9 +207,9 @@ def _part(block: Block, where: slice) -> Block:
     )
 
 
-def _at(x: FloatArray, sample: IndexArray, part: FloatArray) -> FloatArray:
+def _at(before: float, x: FloatArray, sample: IndexArray, part: FloatArray) -> FloatArray:
     from floatref.kernels import motion
 
     y = np.empty(sample.size)
-    motion.read_at(x, sample, part, y)
+    motion.read_at(before, frozen(x), sample, part, y)
     return y

@@ -45,13 +45,32 @@ class Grade:
             return
         if seen.size < height.size:
             place, height = place[seen], height[seen]
-        latest = self.places[-1:] if self.places.size else place[:1] - POINT_M
+        near = int(np.argmax(place >= place[-1] - GRADE_M))
+        self._add_near(place, place[near:], height[near:])
+
+    def _add_near(self, every: FloatArray, place: FloatArray, height: FloatArray) -> None:
+        """Take those samples, the last of ``every``, that are near enough to the last one."""
+        latest = float(self.places[-1]) if self.places.size else float(every[0]) - POINT_M
+        # What is too far from the last sample is not kept: only how far it got counts.
+        far = every[: every.size - place.size]
+        latest = max(latest, float(far.max(initial=-np.inf)))
         cells = np.maximum.accumulate(np.floor(np.append(latest, place) / POINT_M))
         new = np.flatnonzero(np.diff(cells) > 0)
         self.places = np.append(self.places, place[new])
         self.heights = np.append(self.heights, height[new])
         self.place, self.height = float(place[-1]), float(height[-1])
         self._keep_near()
+
+    def add_road(self, place: FloatArray, reference: FloatArray, range_: FloatArray) -> None:
+        """Take the next samples of the road, ``reference`` less ``range_``, as `add` does.
+
+        Of a road that is known throughout only the end is looked at.
+        """
+        if np.isnan(reference.sum() + range_.sum()):
+            self.add(place, reference - range_)
+            return
+        near = int(np.argmax(place >= place[-1] - GRADE_M))
+        self._add_near(place, place[near:], reference[near:] - range_[near:])
 
     def cross(self, place: float, height: float) -> float:
         """Return by how much the sample behind a seam is below the road that goes on, in m.
@@ -107,6 +126,8 @@ class Seams(Stage):
         if len(block) == 0:
             return block
         distance, values = block[ChannelId(DISTANCE)], {}
+        if self._goes_on(block.first, distance):
+            return self._carry_on(block, distance)
         known = np.flatnonzero(~np.isnan(distance))
         seams = self._seams(distance[known], known + block.first)
         for track in self._tracks:
@@ -115,6 +136,31 @@ class Seams(Stage):
             shifts = self._shifts(track, *road, known, seams)
             if shifts is not None:
                 values[name] = block[name] + shifts
+        return block.setting(values) if values else block
+
+    def _goes_on(self, first: int, distance: FloatArray) -> bool:
+        """Return whether every sample is known, up to the first of the block from the one before.
+
+        Then there is no seam, and the places before the next one are those of the last samples.
+        """
+        at: IndexArray = self.memory["at"]
+        if np.isnan(distance.sum()) or (at.size and at[-1] != first - 1):
+            return False
+        last = distance[-self._pace - 1 :]
+        behind = np.arange(first + distance.size - last.size, first + distance.size)
+        self.memory["places"] = np.append(self.memory["places"], last)[-self._pace - 1 :].copy()
+        self.memory["at"] = np.append(at, behind)[-self._pace - 1 :].copy()
+        return True
+
+    def _carry_on(self, block: Block, distance: FloatArray) -> Block:
+        """Return the block without a seam: its heights are shifted as those before it."""
+        values = {}
+        for track in self._tracks:
+            name, range_ = ChannelId(REFERENCE_HEIGHT, track), ChannelId(HEIGHT, track)
+            shift: float = self.memory["shift"][track]
+            self.memory["grade"][track].add_road(distance, block[name], block[range_])
+            if shift:
+                values[name] = block[name] + shift
         return block.setting(values) if values else block
 
     def _seams(self, places: FloatArray, at: IndexArray) -> list[int]:

@@ -1,6 +1,6 @@
 """Whether a distance can be that of a profiler: range, direction, length, speed and counts."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -11,10 +11,21 @@ from floatref.values.profile import FARTHEST_M
 from floatref.values.recording import Channel
 from floatref.values.scanning import Summary, chunks, every, first_where
 
+DISTANCES = ("distance", "wheel_distance", "optical_distance")
 FASTEST_MPS = 90.0
 """No profiler is faster, in m/s."""
 SLOWEST_MPS = 0.1
-"""A mean speed below this over more than ten seconds is worth a warning, in m/s."""
+"""A distance that is never faster is suspected to be in km, in m/s.
+
+The fastest profiler, its distance in km, reaches `FASTEST_MPS` / 1000 = 0.09 m/s; people who walk
+with a profiler are faster.
+"""
+STEP_S, SUSTAINED, AMONG = 1.0, 3, 10
+"""A speed counts that is reached in three among ten successive steps of a second or more.
+
+A damaged encoder leaps in one of them, and a vehicle that moves does so for seconds. A recording
+that is shorter than ten seconds is not suspected.
+"""
 AVERAGED_S = 0.5
 """Speed is averaged over this time, in s: counts come in bursts."""
 MOST_POINTS = 1e9
@@ -34,13 +45,7 @@ def check_distance(channel: Channel, summary: Summary, interval_m: float) -> Ite
     check_direction(channel, MOST if channel.id.name == "distance" else 0.0)
     _check_length(channel, summary, interval_m)
     _check_speed(channel)
-    length = summary.greatest - summary.least
-    begin, end = channel.span_s
-    if end - begin > 10 and length < SLOWEST_MPS * (end - begin):
-        yield (
-            f"channel {channel.id}: {length:.4g} m in {end - begin:.4g} s; "
-            "if the distance is in km, multiply by 1000"
-        )
+    yield from _check_unit(channel, summary)
     count = _held_count(channel.values)
     if count > interval_m:
         yield (
@@ -50,15 +55,30 @@ def check_distance(channel: Channel, summary: Summary, interval_m: float) -> Ite
         )
 
 
-def _check_range(channel: Channel, summary: Summary, interval_m: float) -> None:
-    """Refuse a distance so far from its origin that float64 does not hold the interval."""
-    farthest = max(summary.greatest, -summary.least)
-    if farthest > FARTHEST_M:
-        at = first_where(lambda values: np.abs(values) > FARTHEST_M, channel.values) or 0
+def check_origins(channels: Iterable[Channel]) -> None:
+    """Raise InputError for a distance among ``channels`` that is beyond `FARTHEST_M`.
+
+    It comes before whatever squares a distance: numbers of damaged files would overflow there.
+    """
+    for channel in channels:
+        if channel.id.name in DISTANCES:
+            _check_origin(channel)
+
+
+def _check_origin(channel: Channel) -> None:
+    at = first_where(lambda values: np.abs(values) > FARTHEST_M, channel.values)
+    if at is not None:
         raise InputError(
             f"channel {channel.id}: sample {at} is {channel.values[at]:.10g} m, beyond "
             f"{FARTHEST_M:g} m; subtract an origin, such as the first sample"
         )
+
+
+def _check_range(channel: Channel, summary: Summary, interval_m: float) -> None:
+    """Refuse a distance so far from its origin that float64 does not hold the interval."""
+    farthest = max(summary.greatest, -summary.least)
+    if farthest > FARTHEST_M:
+        _check_origin(channel)
     step = float(np.spacing(farthest))
     if step > FINEST_STEP * interval_m:
         raise InputError(
@@ -86,9 +106,7 @@ def _check_length(channel: Channel, summary: Summary, interval_m: float) -> None
 
 def _check_speed(channel: Channel) -> None:
     """Refuse a distance that is faster than any profiler, averaged over half a second."""
-    stride = round(min(max(1, AVERAGED_S * channel.mean_rate_hz), channel.values.size))
-    distance = every(stride, channel.values)
-    times = channel.clock.times(distance.size, step=stride)
+    stride, times, distance = _thin(channel)
     advance, elapsed, since_s = _speeds(times, distance)
     if (advance > FASTEST_MPS * np.maximum(elapsed, AVERAGED_S)).any():
         pieces = [x[-first % stride :: stride] for first, x in forward_chunks(channel.values)]
@@ -101,6 +119,40 @@ def _check_speed(channel: Channel) -> None:
             f"{since_s[at]:.6g} s is {speed[at]:.4g} m/s, faster than any profiler; "
             "if the distance is in mm, multiply by 0.001, else cut the jump out"
         )
+
+
+def _check_unit(channel: Channel, summary: Summary) -> Iterator[str]:
+    """Yield a warning if no speed is that of a profiler, however long it is stationary."""
+    begin, end = channel.span_s
+    length = summary.greatest - summary.least
+    if end - begin <= AMONG * STEP_S:
+        return
+    _, times, distance = _thin(channel)
+    fastest = _sustained_speed(times, distance)
+    if fastest < SLOWEST_MPS:
+        yield (
+            f"channel {channel.id}: {length:.4g} m in {end - begin:.4g} s, at most "
+            f"{fastest:.4g} m/s; if the distance is in km, multiply by 1000"
+        )
+
+
+def _sustained_speed(times: FloatArray, distance: FloatArray) -> float:
+    """Return the fastest speed in m/s that `SUSTAINED` `AMONG` successive steps reach."""
+    times, distance = times[~np.isnan(distance)], distance[~np.isnan(distance)]
+    kept = np.diff(np.floor((times - times[0]) / STEP_S), prepend=-1.0) > 0
+    speed = np.diff(distance[kept]) / np.maximum(np.diff(times[kept]), AVERAGED_S)
+    if not speed.size:
+        return 0.0
+    among = np.lib.stride_tricks.sliding_window_view(speed, min(AMONG, speed.size))
+    reached = min(SUSTAINED, among.shape[1])
+    return float(np.partition(among, -reached, axis=1)[:, -reached].max())
+
+
+def _thin(channel: Channel) -> tuple[int, FloatArray, FloatArray]:
+    """Return the stride of samples about `AVERAGED_S` apart, their times in s, and distance."""
+    stride = round(min(max(1, AVERAGED_S * channel.mean_rate_hz), channel.values.size))
+    distance = every(stride, channel.values)
+    return stride, channel.clock.times(distance.size, step=stride), distance
 
 
 def _speeds(times: FloatArray, distance: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -38,7 +38,8 @@ class NativeClock:
     With a ``rate`` in Hz, row k was taken ``first_tick * tick_s + k / rate`` seconds after
     ``origin_ns``; without one every row has its tick, and was taken ``tick * tick_s`` seconds
     after it. ``origin_ns`` is in ns since the zero of ``epoch``. Streams of one file whose clocks
-    have one ``name`` are on one clock, whatever their rates.
+    have one ``name`` are on one clock, whatever their rates. ``turn_s`` is the time in s after
+    which ticks begin again at 0, as times of a day do at midnight; None if they do not.
     """
 
     rate: Fraction | None = None
@@ -47,6 +48,7 @@ class NativeClock:
     epoch: Epoch = Epoch.LOCAL
     origin_ns: int = 0
     name: str = ""
+    turn_s: Fraction | None = None
 
     def __post_init__(self) -> None:
         """Refuse a rate or a tick that is not above zero."""

@@ -31,6 +31,7 @@ SCRIPTS = (
 """The scripts of a page, in the order in which they need each other."""
 SINGLE, DOUBLE, BYTE = "<f4", "<f8", "u1"
 """Formats of the numbers in an array, little-endian."""
+LARGEST_SINGLE = float(np.finfo(SINGLE).max)
 PIECE = 3 << 18
 """Bytes that become text at a time; a multiple of 3, so that the texts join."""
 
@@ -50,7 +51,12 @@ class PageWriter:
         self._stream.write(head.replace("TITLE", escape(title)))
 
     def add(self, values: ArrayLike, form: DTypeLike = SINGLE) -> int:
-        """Write ``values`` as numbers of this ``form``, and return the number of the array."""
+        """Write ``values`` as numbers of this ``form``, and return the number of the array.
+
+        Those of a damaged file that are beyond the form become its largest.
+        """
+        if form == SINGLE:
+            values = np.clip(values, -LARGEST_SINGLE, LARGEST_SINGLE)
         raw = np.ascontiguousarray(values, form).tobytes()
         name = np.dtype(form).str.lstrip("<|")
         self._stream.write(f'<script type="text/plain" id="array-{len(self._arrays)}">')

@@ -33,6 +33,14 @@ def test_an_unknown_name_is_bad_input(option: str, name: str) -> None:
     assert name in text
 
 
+def test_a_folder_is_no_file_to_write_and_said_so_before_the_work(tmp_path: Path) -> None:
+    code, text = run("--out", str(tmp_path))
+    assert code == 2
+    assert text.splitlines()[-1] == (
+        f"Error: {tmp_path}: is a folder; give the name of a file to write"
+    )
+
+
 @pytest.mark.slow
 def test_a_study_of_one_fault_is_written_as_json(tmp_path: Path) -> None:
     out = tmp_path / "faults.json"

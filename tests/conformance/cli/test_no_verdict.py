@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from floatref.cli.program.interrupts import Ending
 from floatref_conformance.cli import explain as explain_command
 from floatref_conformance.cli import list as list_command
 from floatref_conformance.cli import replay as replay_command
@@ -49,6 +50,17 @@ def test_an_interruption_outside_a_run_is_no_verdict_either(call, monkeypatch):
     monkeypatch.setattr(list_command, "load_registry", interrupted)
     answer = call("list")
     assert (answer.exit_code, answer.stderr) == (130, "Interrupted: no verdict\n")
+
+
+def test_a_signal_beside_the_command_is_no_fault_of_the_suite(call, monkeypatch):
+    """Between the handlers of program and command, the program's own ends it."""
+
+    def ended(edition):
+        raise Ending(130)
+
+    monkeypatch.setattr(list_command, "load_registry", ended)
+    answer = call("list")
+    assert (answer.exit_code, answer.stderr) == (130, "")
 
 
 @pytest.mark.slow

@@ -1,4 +1,6 @@
-"""The plates of the stationary tests: where they lie, and under which laser."""
+"""The plates of the stationary tests, and how a parked vehicle's motion is made."""
+
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -7,9 +9,10 @@ from hypothesis import strategies as st
 
 from floatref_conformance.checks.stationary.parked_checks import BOUNCE, QUIESCENT
 from floatref_conformance.proving_ground.drives.artificial import artificial_drive
-from floatref_conformance.proving_ground.parked import APART_M, plates_of
+from floatref_conformance.proving_ground.parked import APART_M, park, plates_of
 from floatref_conformance.proving_ground.scenario import Scenario
 from floatref_conformance.proving_ground.simulate import Simulation, stationary
+from floatref_conformance.proving_ground.vehicles import motion
 
 SCORED_END_M = max(check.end_m for check in (QUIESCENT, BOUNCE))
 
@@ -62,3 +65,30 @@ def test_each_laser_sees_the_plate_of_its_own_wheel_path_alone(simulation: Simul
             beside = height[(middle > plate.length_m / 2 + 0.1) & (middle < 4.0)].mean()
             expected = 0.005 if other == name else 0.0
             assert beside - top == pytest.approx(expected, abs=3e-5)
+
+
+@pytest.mark.parametrize("stretch", [999, 32_768])
+def test_the_stretches_in_which_the_motion_is_made_change_no_bit(
+    simulation: Simulation, stretch: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kind = "bounce" if np.ptp(simulation.motion.pitch) > 0 else "quiescent"
+    monkeypatch.setattr(motion, "STRETCH", stretch)
+    again = stationary(kind, seed=3, rate_hz=2000.0)
+    for one, other in zip(simulation.recording.channels, again.recording.channels, strict=True):
+        np.testing.assert_array_equal(one.values, other.values)
+    for track, other in zip(simulation.truth.tracks, again.truth.tracks, strict=True):
+        np.testing.assert_array_equal(track.elevation, other.elevation)
+
+
+def test_a_parked_motion_takes_little_more_than_it_holds() -> None:
+    scenario = Scenario(seed=3, manoeuvre="quiescent", rate_hz=16000.0)
+    # What is compiled and loaded first is not counted.
+    park(Scenario(seed=3, manoeuvre="quiescent", rate_hz=1000.0))
+    tracemalloc.start()
+    try:
+        held, _ = park(scenario)
+        at_rest, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert held.distance.size > 500_000
+    assert peak < 1.3 * at_rest

@@ -38,6 +38,9 @@ def pack(*members, comment=b""):
 
 GOOD = pack((member("a"), b"one"), (member("b"), b"two"))
 DIRECTORY = GOOD.index(b"PK\x01\x02")
+NAMELESS = bytearray(GOOD)
+NAMELESS[30] = NAMELESS[DIRECTORY + 46] = 0
+"""Its first name ends before its first letter."""
 LINK, FOLDER = stat.S_IFLNK | 0o777, stat.S_IFDIR | 0o755
 REFUSED = {
     "cut at its end": (GOOD[:-30], "not a whole archive"),
@@ -49,6 +52,7 @@ REFUSED = {
     "a path from the root": (pack((member("/etc/passwd"), b"")), "/etc/passwd: is a path"),
     "a path of Windows": (pack((member("..\\a"), b"")), "is a path"),
     "a drive": (pack((member("C:a"), b"")), "C:a: is a path"),
+    "no name": (bytes(NAMELESS), "is a path"),
     "a hidden name": (pack((member("a/.git"), b"")), "a/.git: is a path"),
     "a link": (pack((member("a", LINK), b"/etc/passwd")), "a: is a link"),
     "a folder": (pack((member("a/", FOLDER), b"")), "a/: is a folder"),

@@ -10,6 +10,7 @@ import pytest
 import floatref
 from floatref.files import read_profile, write_recording
 from floatref.values.recording import Channel, Recording
+from floatref_conformance.checks.faults.sensor_faults import SENSOR_FAULTS
 
 pytestmark = pytest.mark.slow
 
@@ -31,6 +32,19 @@ def drives(simulated):
         "lasers ahead of two accelerometers": simulated(**STOP, laser_ahead_m=0.2),
         "two stops": simulated(manoeuvre="stop", tracks=("main",), **twice),
         "no stop at 1 kHz": simulated(rate_hz=1000.0),
+        **with_wrong_counts(simulated(rate_hz=1000.0, length_m=450.0, laser_ahead_m=0.1)),
+    }
+
+
+def with_wrong_counts(recording):
+    """Return ``recording`` with an encoder that leaps, and with one that loses counts, at 230 m."""
+    faults = {
+        "an encoder that leaps": ("encoder-leap", {"size_m": 2.7}),
+        "an encoder that loses counts": ("encoder-lost-counts", {"length_s": 0.3}),
+    }
+    return {
+        name: SENSOR_FAULTS[fault](recording, {"at_m": 230.0, **numbers}).recording
+        for name, (fault, numbers) in faults.items()
     }
 
 
@@ -71,6 +85,7 @@ def assert_near(found, wanted):
     [
         *("a stop", "lasers ahead of two accelerometers"),
         *("two stops", "no stop at 1 kHz"),
+        *("an encoder that leaps", "an encoder that loses counts"),
     ],
 )
 def test_a_profile_is_that_of_the_pipeline(start, drives, drive, tmp_path):

@@ -41,8 +41,8 @@ def driven() -> tuple[Simulation, Profile, int]:
     """Return the drive, its profile, and how many segments were kept at most."""
     made, kept, ended = simulate(DRIVE), [0], Backlog._end_segment
 
-    def watched(backlog: Backlog, sample: int) -> None:
-        ended(backlog, sample)
+    def watched(backlog: Backlog) -> None:
+        ended(backlog)
         kept.append(len(backlog.lines["left"].segments))
 
     with pytest.MonkeyPatch.context() as patched:

@@ -18,9 +18,9 @@ IN_A_FRESH_PROCESS = """
 import sys, resource
 from pathlib import Path
 import floatref
-from floatref.engine import flow
+from floatref.intake import tape
 
-flow.IN_MEMORY = 1 << 20
+tape.IN_MEMORY = 1 << 20
 
 def peak():
     # The other count begins with the memory of the process that started this one.

@@ -84,9 +84,10 @@ def test_a_cut_off_beyond_half_the_rate_is_named_as_it_was_given(steady, pipelin
         floatref.process(steady(), pipeline, {setting: 700.0})
 
 
-def test_progress_ends_at_one(steady):
+@pytest.mark.parametrize("pipeline", ["temporal-basic", "road-prior-smoother"])
+def test_progress_ends_at_one(steady, pipeline):
     done = []
-    run.run(steady(seconds=200.0), "temporal-basic", progress=done.append)
+    run.run(steady(seconds=200.0), pipeline, progress=done.append)
     assert done == sorted(done)
     assert len(done) > 1
     assert done[-1] == 1.0

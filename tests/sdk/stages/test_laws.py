@@ -57,7 +57,7 @@ MAKERS = {
     **{
         name: lambda name=name: getattr(butterworth, name)("elevation", 3.0)
         for name in dir(butterworth)
-        if name.startswith(("HighPassB3S", "LowPassB3S"))
+        if name.startswith(("HighPassB3S", "LowPassB3"))
     },
     **{
         name: lambda name=name: getattr(varying, name)("elevation")

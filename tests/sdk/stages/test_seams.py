@@ -125,3 +125,10 @@ def test_any_split_gives_the_same_bits(seed, begin, length, cuts):
     values = lost(drawn(seed), begin, length, seed % 3 * 5.0)
     values[HEIGHT][begin - 1] = np.nan if seed % 2 else 0.0
     np.testing.assert_array_equal(through(values, cuts), through(values))
+
+
+def test_a_seam_between_two_blocks_is_one_within_a_block() -> None:
+    values = lost(drawn(0), 200, 100, counted_m=0.0)
+    whole = through(values)
+    assert (whole != values[REFERENCE])[300:].all()
+    np.testing.assert_array_equal(through(values, [300]), whole)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.values import scanning
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.encoder import check_distance
+from floatref.values.encoder import DISTANCES, check_distance, check_origins
 from floatref.values.encoder_direction import stretches_behind
 from floatref.values.recording import Channel, Clock
 from floatref.values.scanning import Summary
@@ -25,6 +25,22 @@ def warned(values: np.ndarray, interval_m: float, clock: Clock | None = None) ->
 
 def travel(speed: float) -> np.ndarray:
     return speed * np.arange(COUNT) / RATE
+
+
+@pytest.mark.parametrize("name", DISTANCES)
+@pytest.mark.parametrize("size", [1.01e10, -1e160, 3e227])
+def test_a_number_that_no_distance_has_is_refused_before_it_is_squared(
+    name: str, size: float
+) -> None:
+    values, clock = travel(20.0), UniformClock.of(RATE)
+    channels = [Channel.of("distance", travel(20.0), clock)]
+    if name != "distance":
+        channels.append(Channel.of(name, values.copy(), clock))
+    check_origins(channels)
+    values[7] = size
+    channels[-1] = Channel.of(name, values, clock)
+    with pytest.raises(InputError, match=rf"{name}: sample 7 is .* beyond 1e\+10 m; subtract"):
+        check_origins(channels)
 
 
 @few

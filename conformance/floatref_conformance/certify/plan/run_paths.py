@@ -1,13 +1,13 @@
 """Which files are runs: paths, directories of runs and patterns, and unique names for them."""
 
-import glob
 import os
 import re
 from collections.abc import Iterator, Sequence
-from itertools import takewhile
 from pathlib import Path
 
 from floatref.errors import InputError
+from floatref.files.search.counted_listing import CountedListing
+from floatref.files.search.path_patterns import find_matches, is_pattern, split_pattern
 from floatref.files.sources import real_path
 
 DOCUMENTS = ("profile.json", "recording.json")
@@ -17,9 +17,6 @@ BESIDE = (
     *(".html", ".jpg", ".json", ".md", ".pdf", ".png", ".toml", ".xlsx", ".yaml", ".zip"),
 )
 """Suffixes in a directory of runs that are no run: what belongs to one, maps, notes, pictures."""
-MOST = 100_000
-"""Largest number of names below a folder that is searched: that takes about a second."""
-PATTERN = re.compile(r"[*?\[]")
 CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]+")
 
 
@@ -70,48 +67,33 @@ def names_of(paths: Sequence[Path]) -> tuple[str, ...]:
 
 
 def _runs(text: str, folder: Path) -> Iterator[Path]:
-    if PATTERN.search(text) and not (folder / text).exists():
-        if "**" in text:
-            _refuse_vast(_before_pattern(folder / text), text)
-        matches = sorted(glob.glob(text, root_dir=folder, recursive=True), key=natural)
-        if not matches:
-            raise InputError(f"{folder / text}: no file matches this pattern; correct it")
-        for match in matches:
-            path = check_exists(match, folder)
-            _refuse_vast(path, match)
-            yield from _within(path)
-    else:
-        path = check_exists(text, folder)
-        _refuse_vast(path, text)
-        yield from _within(path)
+    listing = CountedListing(text)
+    for path in _named(text, folder, listing):
+        yield from _within(path, listing)
 
 
-def _before_pattern(path: Path) -> Path:
-    """Return the folder in ``path`` before the first part with a pattern's character."""
-    return Path(*takewhile(lambda part: not PATTERN.search(part), path.parts))
+def _named(text: str, folder: Path, listing: CountedListing) -> list[Path]:
+    """Return the path that ``text`` is, or those that match it, in the order of people."""
+    if not is_pattern(text) or os.path.exists(folder / text):
+        return [check_exists(text, folder)]
+    start, names = split_pattern(text)
+    matches = find_matches(folder / start, names, listing)
+    found = sorted(matches, key=lambda path: natural(str(path)))
+    if not found:
+        raise InputError(f"{folder / text}: no file matches this pattern; correct it")
+    return [path.parent if path.name in DOCUMENTS else path for path in found]
 
 
-def _refuse_vast(folder: Path, text: str) -> None:
-    """Raise InputError if more than `MOST` names lie below ``folder``, which ``text`` means."""
-    count = 0
-    for _, folders, files in os.walk(folder):
-        count += len(folders) + len(files)
-        if count > MOST:
-            raise InputError(
-                f"{text}: more than {MOST} files and folders lie below {folder}; name a folder "
-                "that holds the runs alone"
-            )
-
-
-def _within(path: Path) -> Iterator[Path]:
+def _within(path: Path, listing: CountedListing) -> Iterator[Path]:
     """Yield ``path`` if it is a run, else the runs in that directory and those below."""
     if not path.is_dir() or any((path / name).is_file() for name in DOCUMENTS):
         yield path
         return
-    for child in sorted(path.iterdir(), key=lambda child: natural(child.name)):
+    children = [path / entry.name for entry in listing.entries(path)]
+    for child in sorted(children, key=lambda child: natural(child.name)):
         hidden = child.name.startswith(".")
         if child.is_dir() and not (hidden or child.is_symlink()):
-            yield from _within(child)
+            yield from _within(child, listing)
         elif _is_file(child) and not hidden and child.suffix.lower() not in BESIDE:
             yield child
 

@@ -35,6 +35,8 @@ def check_report(folder: Path) -> None:
     It may exist if it is empty or holds an earlier report and nothing else.
     """
     target = Path(os.path.realpath(folder))
+    if target.is_symlink():
+        raise InputError(f"{folder}: is a loop of links; remove it, or choose another name")
     if not target.parent.is_dir():
         raise InputError(f"{folder}: its folder does not exist; make {target.parent} first")
     if not target.exists():

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from floatref.errors import InputError
 from floatref_conformance.faults.study import (
     DRIVES,
     NOMINAL_PIPELINES,
@@ -90,6 +91,8 @@ def faults(
         from floatref.files.atomic import check_target
 
         check_target(out, overwrite=True)
+        if out.is_dir():
+            raise InputError(f"{out}: is a folder; give the name of a file to write")
     concerned = [f.name for f in FAULTS.values() if not nominal or f.sensor in NOMINAL_SENSORS]
     settings = StudySettings(
         faults or tuple(concerned),

@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
 from floatref.files.owners import own_name
-from floatref.files.scratch import make_scratch
+from floatref.files.scratch import make_scratch, remove_scratch
 from floatref_conformance.devices.containers import removal
 from floatref_conformance.devices.containers.engine import PROFILES, RECORDINGS, VARIABLES, Engine
 from floatref_conformance.devices.delivered import take
@@ -92,7 +92,7 @@ class RunningContainer:
                 ending.stdin.close()
             with suppress(subprocess.TimeoutExpired):
                 ending.wait(REMOVED_S)
-        shutil.rmtree(self._folder, ignore_errors=True)
+        remove_scratch(self._folder)
 
 
 def _start_removal(engine: Engine, name: str) -> "subprocess.Popen[bytes]":

@@ -1,9 +1,8 @@
 """What is to be processed: folders, files, patterns and manifests as jobs, each source once."""
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from glob import has_magic
 from pathlib import Path
 
 from floatref.batch.jobs.defaults import Defaults, files_of, read_given_map
@@ -22,31 +21,10 @@ from floatref.batch.jobs.source_names import name_below, unique_names
 from floatref.engine.recordings.readers import find_readers
 from floatref.errors import InputError
 from floatref.files.recording_directory import DOCUMENT as RECORDING
+from floatref.files.search.counted_listing import CountedListing
+from floatref.files.search.path_patterns import find_matches, is_pattern, split_pattern
 from floatref.files.sources import name_errors
 from floatref.mapping.channel_map.entries import ChannelMap
-
-
-def find_matches(text: str) -> tuple[Path, list[Path]]:
-    """Return the folder before the first pattern character, and the matches of ``text`` in order.
-
-    Hidden files below that folder match only a pattern that names hidden files. Raises InputError
-    for an invalid pattern.
-    """
-    parts = Path(text).parts
-    first = next(at for at, part in enumerate(parts) if has_magic(part))
-    base, rest = Path(*parts[:first]).absolute(), parts[first:]
-    try:
-        found = sorted(base.glob("/".join(rest)), key=natural_path_key)
-    except (ValueError, NotImplementedError) as error:
-        raise InputError(f"{text}: bad pattern ({error}); write ** as a name of its own") from error
-    if any(_hidden(rest)):
-        return base, found
-    return base, [path for path in found if not any(_hidden(path.relative_to(base).parts))]
-
-
-def _hidden(parts: tuple[str, ...]) -> Iterator[bool]:
-    return (part.startswith(".") for part in parts)
-
 
 __all__ = ["Defaults", "Found", "find_jobs"]
 
@@ -95,7 +73,7 @@ class _Search:
         path = Path(text).absolute()
         if text and os.path.exists(path):
             self._take_path(path)
-        elif has_magic(text):
+        elif is_pattern(text):
             self._take_pattern(text)
         else:
             raise InputError(f"{text or repr(text)}: not found; check the name")
@@ -130,13 +108,16 @@ class _Search:
                     self._add(entry.path, path.parent, entry.options)
 
     def _take_pattern(self, text: str) -> None:
-        base, matches = find_matches(text)
+        start, names = split_pattern(text)
+        base, listing = start.absolute(), CountedListing(text)
+        matches = sorted(find_matches(base, names, listing), key=natural_path_key)
         beside, count = self._beside(self._defaults), 0
         entered: set[Path] = set()
         for path in matches:
             if entered.isdisjoint(path.parents) and not self._is_ours(path):
                 if path.is_dir():
                     entered.add(path)
+                    listing.check_below(path)
                     count += self._take_folder(path, base, self._defaults)
                 elif is_inside(path) or not path.is_file():
                     self._passed_over[path] = None

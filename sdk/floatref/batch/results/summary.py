@@ -10,16 +10,16 @@ from pathlib import Path
 from typing import Any
 
 from floatref.batch.jobs.job import PROFILES
-from floatref.batch.results.cells import write_cell
 from floatref.batch.results.record import Record, Row
 from floatref.errors import missing_extra
 from floatref.files.atomic import replace_file
 from floatref.files.sources import check_file
 from floatref.measures import rate_iri
 from floatref.measures.ride.segment_measures import MEASURES
+from floatref.values.display.spreadsheet_cells import write_cell
 
 CSV, PARQUET = "summary.csv", "summary.parquet"
-"""Names of the two files; they hold the same values, texts in CSV as `cells` writes them."""
+"""Names of the two files; they hold the same values, texts in CSV as `write_cell` has them."""
 COLUMNS: Mapping[str, type] = {
     "file": str,
     "name": str,

@@ -4,6 +4,7 @@ import os
 import signal
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
+from multiprocessing import active_children
 from threading import Event, Thread, current_thread, main_thread
 from typing import Any, NoReturn
 
@@ -21,10 +22,10 @@ LATE = "Interrupted; what still ran {:g} s later was killed: go on with --resume
 def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterator[None]:
     """Let both signals raise KeyboardInterrupt once, and end with the text of ``line``.
 
-    After the first one both are ignored, so that workers can be stopped. Where the work goes on
-    for ``ending_s`` seconds nevertheless, the process ends with a line and exit code 130: its
-    workers end with it, and the next command removes their files. A signal that was ignored
-    before stays ignored.
+    After the first one both do nothing, so that workers can be stopped; what goes on behind that is
+    killed. Where the work goes on for ``ending_s`` seconds nevertheless, the process ends with a
+    line and exit code 130: its workers end with it, and the next command removes their files. A
+    signal that was ignored before stays ignored.
     """
     before = {number: signal.getsignal(number) for number in SIGNALS}
     caught = [number for number in SIGNALS if before[number] != signal.SIG_IGN]
@@ -33,7 +34,7 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
     over, errors, came = Event(), os.dup(2), list[int]()
 
     def stop(number: int, _: object) -> NoReturn:
-        _handle(caught, signal.SIG_IGN)
+        _handle(caught, _do_nothing)
         if not came:
             Thread(target=_end_late, args=(over, ending_s, errors), daemon=True).start()
         came.append(number)
@@ -53,6 +54,7 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
         click.echo(line(), err=True)
         raise click.exceptions.Exit(INTERRUPTED) from error
     finally:
+        _kill_children(came)
         over.set()
         for number in caught:
             signal.signal(number, before[number])
@@ -62,6 +64,21 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
 def _handle(numbers: Iterable[int], handler: Any) -> None:
     for number in numbers:
         signal.signal(number, handler)
+
+
+def _do_nothing(number: int, _: object) -> None:
+    """Be there in place of SIG_IGN, which what is started from now on would inherit.
+
+    A worker that is started in place of one that the signal has ended would then hear no signal,
+    and Python waits for it.
+    """
+
+
+def _kill_children(came: list[int]) -> None:
+    """Kill what signals that ``came`` left of the workers: Python would wait without a limit."""
+    for child in active_children() if came else ():
+        child.kill()
+        child.join()
 
 
 def _end_late(over: Event, ending_s: float, errors: int) -> None:

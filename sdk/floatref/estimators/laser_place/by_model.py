@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -14,7 +15,7 @@ from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, HEIGHT
-from floatref.values.arrays import Flag, FloatArray
+from floatref.values.arrays import Flag, FloatArray, frozen
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 
@@ -31,7 +32,7 @@ class Bins:
 
     def add(self, *rows: FloatArray) -> None:
         """Add the samples of ``rows``, each of shape (n,)."""
-        self.parts.append(self.means.take(np.stack(rows)))
+        self.parts.append(self.means.take(rows))
 
     def take(self) -> FloatArray:
         """Return all bins, shape (rows, bins), without a last one that is cut short.
@@ -81,9 +82,11 @@ class HeightByModel(Stage):
     def survey(self, block: Block) -> None:
         """Add the block to the means of the bins."""
         self.memory["bins"].add(*self.rows(block))
-        flags = block.flags.get(ChannelId(DISTANCE), np.zeros(len(block), np.uint8))
+        flags, miscounted = block.flags.get(ChannelId(DISTANCE)), nothing(len(block))
+        if flags is not None:
+            miscounted = ((flags & np.uint8(Flag.SLOW)) != 0).astype(np.float64)
         # A leap is two samples, which the mean over a bin would hide.
-        self.memory["miscounted"].add(((flags & np.uint8(Flag.SLOW)) != 0).astype(np.float64))
+        self.memory["miscounted"].add(miscounted)
         if self.memory["begin"] is None and len(block):
             self.memory["begin"] = block.first
 
@@ -103,7 +106,8 @@ class HeightByModel(Stage):
         raised = self.between_bins(block, self.memory["raised"])
         for track, lever_m in self.levers_m.items():
             height = ChannelId(HEIGHT, track)
-            values[height] = block[height] - lever_m * raised
+            if lever_m:
+                values[height] = block[height] - lever_m * raised
             marks = flags_of(block, *self.own(track))
             if marks is not None:
                 flags[height] = marks
@@ -115,14 +119,17 @@ class HeightByModel(Stage):
         return bins.take()
 
     def between_bins(self, block: Block, bins: FloatArray) -> FloatArray:
-        """Return the lines through ``bins`` at the samples of ``block``, shape (n,)."""
+        """Return the lines through ``bins`` at the samples of ``block``, shape (n,).
+
+        They are `nothing` where all of them are zero.
+        """
         from floatref.estimators.levelling import kernel
 
         first = block.first - self.memory["begin"]
         low = max(0, first // self._every - 1)
         # Most of a run is far from any stop, where nothing is to be added.
         if not bins[low : (first + len(block)) // self._every + 2].any():
-            return np.zeros(len(block))
+            return nothing(len(block))
         found = np.empty(len(block))
         kernel.between_bins(bins, first, self._every, found)
         return found
@@ -150,6 +157,12 @@ class HeightByModel(Stage):
         laser_m = at_m + float(np.mean([self.levers_m[t] for t in tracks]))
         step = self._every * self._header.step
         return Places(at_m, laser_m, setup.axles_about(tracks[0]), step)
+
+
+@lru_cache(maxsize=4)
+def nothing(count: int) -> FloatArray:
+    """Return ``count`` zeros, the same for all: blocks that wait hold them once."""
+    return frozen(np.zeros(count))
 
 
 def middle(rows: FloatArray) -> FloatArray:

@@ -1,10 +1,11 @@
 """Means over bins of samples, and smooth local lines through them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from floatref.values.arrays import FloatArray, Records, new_records
+from floatref.values.arrays import FloatArray, Records, frozen, new_records
 
 BIN = np.dtype([("total", np.float64), ("count", np.float64)], align=True)
 """The sum and the number of the samples so far of a bin."""
@@ -28,12 +29,16 @@ class Means:
         """Begin the first bin."""
         self.memory = new_records(self.rows, BIN)
 
-    def take(self, rows: FloatArray) -> FloatArray:
-        """Return the means that the samples ``rows`` complete, shape (rows, n)."""
+    def take(self, rows: Sequence[FloatArray] | FloatArray) -> FloatArray:
+        """Return the means that the samples of ``rows`` complete, shape (rows, n)."""
         from floatref.estimators.levelling import kernel
 
-        found = np.empty((self.rows, (self.filled + rows.shape[1]) // self.every))
-        self.filled = kernel.average(rows, self.every, self.memory, self.filled, found)
+        found, filled = np.empty((self.rows, (self.filled + rows[0].size) // self.every)), 0
+        for k, row in enumerate(rows):
+            # Row by row: those of a block lie apart, and a stack of them would be a copy.
+            own, at = frozen(row)[np.newaxis], slice(k, k + 1)
+            filled = kernel.average(own, self.every, self.memory[at], self.filled, found[at])
+        self.filled = filled
         return found
 
     def rest(self) -> FloatArray:

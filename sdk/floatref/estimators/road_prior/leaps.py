@@ -37,7 +37,10 @@ def leaps(nodes: Nodes, ends: Records, edge: float) -> list[Leap]:
     ``edge`` is the square of how many deviations off that needs.
     """
     seen = ~np.isnan(ends["seen"])
-    innovation, standing = _innovations(nodes), ends["travel"][seen] <= 0.0
+    standing = ends["travel"][seen] <= 0.0
+    if not standing.any():
+        return []
+    innovation = _innovations(nodes)
     far = np.abs(innovation) > LEAST_M
     there = np.flatnonzero(standing & are_let_go(nodes, edge) & far)
     samples = nodes.at[seen][there].tolist()

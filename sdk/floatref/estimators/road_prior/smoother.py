@@ -245,6 +245,8 @@ class RoadPriorSmoother(Stage):
     ) -> FloatArray:
         """Return the share of samples that are lost up to each node."""
         assert self._header is not None
+        if lost is None and not self.memory["missing"][track]:
+            return np.zeros(nodes.size)
         total = np.cumsum(np.zeros(size, np.bool_) if lost is None else lost)
         at = total[nodes]
         counted = np.diff(at, prepend=-self.memory["missing"][track])

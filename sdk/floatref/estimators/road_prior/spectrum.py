@@ -1,13 +1,13 @@
 """The spectrum of the road, from the run itself where speed allows."""
 
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
 from floatref.estimators.road_prior.constants import RoadPrior
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray, Records, new_record, new_records
+from floatref.values.arrays import FloatArray, Records, new_record, new_records, read_only
 
 SHORT, LONG = range(2)
 """Of the mean squares: over the shorter and over the longer distance."""
@@ -200,7 +200,9 @@ class RoadSpectrum:
         return road
 
 
+@cache
 def _squares() -> FloatArray:
-    """Return what q and g add to the mean square over either lag."""
+    """Return what q and g add to the mean square over either lag, read-only."""
     lag = SPACING_M * np.array(LAGS)
-    return np.stack((2.0 * lag, 2.0 / 3.0 * lag**3), axis=1)
+    found = np.stack((2.0 * lag, 2.0 / 3.0 * lag**3), axis=1)
+    return read_only(found)

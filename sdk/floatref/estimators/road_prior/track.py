@@ -77,7 +77,8 @@ class RoadTrack:
     def advance(self, u: Inputs) -> tuple[FloatArray, Nodes]:
         """Return the heights integrated from the accelerations of ``u``, in m, and the nodes."""
         a, first, ends = u.acceleration, u.first, u.ends
-        height, parts = np.empty(a.size), [Nodes.room(NODES, 0, 0)]
+        height, room = np.empty(a.size), Nodes.room(NODES, len(ends), len(ends))
+        found = room.take_first(0)
         roads, brakes = self._changes(first, a.size, ends)
         cuts = sorted({first, *roads, *brakes, first + a.size})
         for low, high in pairwise(cuts):
@@ -87,9 +88,10 @@ class RoadTrack:
                 self.brakes = self.all_brakes()
             count = -(-high // self.model.sub_block) - -(-low // self.model.sub_block)
             inside = slice(low - first, high - first)
-            parts.append(self._advance(Inputs(low, a[inside], ends[:count]), height[inside]))
+            part = Inputs(low, a[inside], ends[:count])
+            found = room.grow(found, self._advance(part, height[inside], room.behind(found)))
             ends = ends[count:]
-        return height, Nodes.concatenate(parts)
+        return height, found
 
     @property
     def height_m(self) -> float:
@@ -119,10 +121,10 @@ class RoadTrack:
         behind = np.maximum((nodes - 1) * self.model.sub_block + 1, first)
         return {*range(first + -first % every, first + size, every)}, {*behind.tolist()}
 
-    def _advance(self, u: Inputs, height: FloatArray) -> Nodes:
+    def _advance(self, u: Inputs, height: FloatArray, nodes: Nodes) -> Nodes:
+        """Return those of the room ``nodes`` that the filter fills by ``u``."""
         from floatref.estimators.road_prior import forward
 
-        nodes = Nodes.room(NODES, len(u.ends), len(u.ends))
         out = Output(height, nodes.rows, nodes.updates)
         found = nodes.take_first(forward.run(self.model, u, self.state, out))
         elevation = height[found.at - u.first] - u.ends["seen"]
@@ -137,10 +139,8 @@ class RoadTrack:
         while len(self.bends) > 1 and self.bends[1][0] <= first:
             self.bends.pop(0)
         begins, values = zip(*self.bends, strict=True)
-        found: FloatArray = np.array(values)[
-            np.searchsorted(begins, np.arange(first, first + size), "right") - 1
-        ]
-        return found
+        ends = np.clip([*begins[1:], first + size], first, first + size)
+        return np.repeat(values, np.diff(ends, prepend=first))
 
     def end(self, at: int, travel_m: float) -> Nodes:
         """Return a node at sample ``at``, the last; empty if it is one already."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from floatref.estimators.laser_place import pitching
-from floatref.estimators.laser_place.by_model import HeightByModel, middle
+from floatref.estimators.laser_place.by_model import HeightByModel, middle, nothing
 from floatref.estimators.laser_place.pitching import model_pitch, second_derivative
 from floatref.estimators.road_prior.constants import LEVELLED_LEAN, RoadPrior
 from floatref.estimators.road_prior.learned import Brake, pool
@@ -63,7 +63,8 @@ class LevelByRoad(HeightByModel):
         more, flags = self.between_bins(block, added), {}
         for track in self.levers_m:
             force, height = ChannelId(SPECIFIC_FORCE, track), ChannelId(HEIGHT, track)
-            values[force] = block[force] + more
+            if more is not nothing(len(block)):
+                values[force] = block[force] + more
             flags[force] = _with_bridged(block, force, height)
         return block.setting(values, {c: marks for c, marks in flags.items() if marks is not None})
 

@@ -21,6 +21,9 @@ WAITING_S = 60.0
 has come out and the next has not would be a step there."""
 STANDING = 5.0
 """Longest wait of a segment, in multiples of the longest time: a vehicle may stand for hours."""
+STOOD_S = 900.0
+"""After so long a standstill no segment waits longer than it must: what readings at one place still
+change is less and less, and every part of the stop would be smoothed again with each segment."""
 JOINT_M = 3e-4
 """1-σ of what may still change where a part that has waited so long ends."""
 TOLERANCE_M = 2e-6
@@ -37,6 +40,7 @@ class Backlog:
         lines: of every wheel path.
         waiting_s: segments are closed no earlier than that.
         longest_s: nor much later, except where the vehicle is stationary or has just been.
+            There all that may be is closed after `STOOD_S`.
         length: samples of a segment.
         blocks: stored, without height and 1-σ.
         closed: all samples before this one are.
@@ -60,14 +64,15 @@ class Backlog:
     def add(self, block: Block, found: Mapping[str, Filtered]) -> None:
         """Store ``block`` and the results of the filters."""
         distance, flags = block[ChannelId(DISTANCE)], {}
+        full = range(block.first // self.length, (block.first + len(block)) // self.length)
+        borders = [(number + 1) * self.length for number in full]
         for track, passed in found.items():
             line = self.lines[track]
             line.heights.append((block.first, passed.height))
-            line.add(passed.nodes, distance[passed.nodes.at - block.first])
+            line.add(passed.nodes, distance[passed.nodes.at - block.first], borders)
             flags.update(_collect_flags(track, passed))
-        full = range(block.first // self.length, (block.first + len(block)) // self.length)
-        for number in full:
-            self._end_segment((number + 1) * self.length)
+        for _ in borders:
+            self._end_segment()
         self.blocks.append(block.setting({}, flags))
 
     def finish(self, ending: Mapping[str, tuple[Nodes, FloatArray | None]]) -> None:
@@ -77,7 +82,7 @@ class Backlog:
             last = self.blocks[-1][ChannelId(DISTANCE)][-1:]
             line.add(nodes, last[: len(nodes.at)])
             if any(len(part.at) for part in line.parts):
-                line.end_segment(ALL)
+                line.end_segment()
             if line.segments:
                 line.close(len(line.segments), beyond)
         self.closed = ALL
@@ -96,11 +101,11 @@ class Backlog:
         """Return where the next output begins: at ``block`` if no block is stored."""
         return (self.blocks[0] if self.blocks else block).first
 
-    def _end_segment(self, sample: int) -> None:
-        """End the segments before ``sample``, and close those that are ready."""
+    def _end_segment(self) -> None:
+        """End the segments before the next border, and close those that are ready."""
         lines = list(self.lines.values())
         for line in lines:
-            line.end_segment(sample)
+            line.end_segment()
         waiting = ceil(self.waiting_s / (self.length * lines[0].rule.step))
         # What is smoothed again later shall not be more than what is closed.
         least, open_ones = max(waiting, 1), len(lines[0].segments)
@@ -117,7 +122,8 @@ class Backlog:
         change: FloatArray = np.maximum.reduce([line.changes() for line in lines])
         ready = min(count_settled(change, lines[0].rule.tolerance_m), most)
         waited_s = (change.size + 1) * self.length * lines[0].rule.step
-        if waited_s >= STANDING * self.longest_s:
+        stood_s = lines[0].count_standing() * self.length * lines[0].rule.step
+        if waited_s >= STANDING * self.longest_s or stood_s >= STOOD_S:
             return most
         half, passed = ceil(change.size / 2), min(most, *(line.count_passed() for line in lines))
         if waited_s < self.longest_s or passed <= half:

@@ -5,7 +5,7 @@ from math import cos, exp, sin, sqrt
 import numpy as np
 
 from floatref.kernels.compiling import compiled
-from floatref.values.arrays import FloatArray, IndexArray
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 
 
 @compiled
@@ -39,6 +39,32 @@ def _multiply_transposed(a: FloatArray, b: FloatArray, product: FloatArray) -> N
             for k in range(states):
                 total += a[k, i] * b[k, j]
             product[i, j] = total
+
+
+@compiled
+def compose(between: BoolArray, passed: FloatArray, gathered: FloatArray) -> None:
+    """Put what passes through the marks ``between`` others into the mark behind each.
+
+    Over two steps Psi is Psi_2 Psi_1, and G is G_1 + Psi_1' G_2 Psi_1. The last mark is a mark that
+    stays.
+    """
+    states = passed.shape[1]
+    half, product = np.zeros((states, states)), np.zeros((states, states))
+    for k in range(between.size - 1):
+        if not between[k]:
+            continue
+        for i in range(states):
+            for j in range(states):
+                total = 0.0
+                for n in range(states):
+                    total += passed[k + 1, i, n] * passed[k, n, j]
+                product[i, j] = total
+        _multiply_transposed(gathered[k + 1], passed[k], half)
+        _multiply_transposed(passed[k], half, gathered[k + 1])
+        for i in range(states):
+            for j in range(states):
+                gathered[k + 1, i, j] += gathered[k, i, j]
+                passed[k + 1, i, j] = product[i, j]
 
 
 @compiled

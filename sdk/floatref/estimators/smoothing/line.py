@@ -38,6 +38,7 @@ class Line:
         rule: when segments are closed.
         heights: of blocks, filtered until smoothed, in m, with the number of their first sample.
         parts, distances: nodes, and distance there, of what is behind the segments.
+        coming: the same of the segments behind that, of a block that holds several.
         segments: those that are complete.
         before, origin: last node of a complete segment, its sample and itself.
         behind: marks of closed segments that the filter still reaches.
@@ -49,6 +50,7 @@ class Line:
     heights: list[tuple[int, FloatArray]] = field(default_factory=list)
     parts: list[Nodes] = field(default_factory=list)
     distances: list[FloatArray] = field(default_factory=list)
+    coming: list[tuple[Nodes, FloatArray]] = field(default_factory=list)
     segments: list[Segment] = field(default_factory=list)
     before: int = -1
     origin: Nodes | None = None
@@ -57,20 +59,26 @@ class Line:
     known_at: IndexArray = field(default_factory=lambda: np.empty(0, np.int64))
     known: FloatArray = field(default_factory=lambda: np.empty(0))
 
-    def add(self, nodes: Nodes, distance_m: FloatArray) -> None:
-        """Store nodes behind those before, and the distance there."""
-        self.parts.append(nodes)
-        self.distances.append(distance_m)
+    def add(self, nodes: Nodes, distance_m: FloatArray, borders: Sequence[int] = ()) -> None:
+        """Store nodes behind those before, and the distance there.
 
-    def end_segment(self, sample: int) -> None:
-        """Make a segment of the nodes before ``sample``, one or more."""
-        head, tail = self.parts[-1].split(sample)
-        nodes, count = head.concatenate([*self.parts[:-1], head]), len(head.at)
-        distance = np.concatenate([*self.distances[:-1], self.distances[-1][:count]])
+        ``borders`` are the samples where segments end before the last of these nodes, in order.
+        """
+        pieces = nodes.split(borders)
+        ends = np.cumsum([len(piece.at) for piece in pieces])
+        distances = [part.copy() for part in np.split(distance_m, ends[:-1])]
+        self.parts.append(pieces.pop(0))
+        self.distances.append(distances.pop(0))
+        self.coming = list(zip(pieces, distances, strict=True))
+
+    def end_segment(self) -> None:
+        """Make a segment of the nodes up to the next border, one or more."""
+        nodes, distance = self.parts[0].concatenate(self.parts), np.concatenate(self.distances)
         marks = Marks.of(self.before, nodes, distance, self.rule.step)
         self.segments.append(Segment(self.before, self.origin, nodes, marks))
         self.before, self.origin = self.segments[-1].last, nodes.last()
-        self.parts, self.distances = [tail], [self.distances[-1][count:]]
+        ahead = [self.coming.pop(0)] if self.coming else []
+        self.parts, self.distances = [n for n, _ in ahead], [d for _, d in ahead]
 
     def changes(self) -> FloatArray:
         """Return by how much what is to come can change the end of each segment but the last."""
@@ -81,6 +89,11 @@ class Line:
         places = np.fmax.accumulate([s.marks.distance_m[-1] for s in self.segments])
         reach = REACH * self.rule.wavelength_m
         return int(np.searchsorted(places, places[-1] - reach, "right"))
+
+    def count_standing(self) -> int:
+        """Return how many of the last segments end where the last one does."""
+        places = np.array([s.marks.distance_m[-1] for s in self.segments])
+        return int(np.argmin(np.append(places[::-1] >= places[-1], False)))
 
     def close(self, count: int, beyond: FloatArray | None = None) -> None:
         """Smooth the first ``count`` segments and let go of them.
@@ -128,7 +141,7 @@ class Line:
         self.known_at = np.concatenate((self.known_at, marks.at[first:last]))
         self.known = np.concatenate((self.known, found))
         keep = int(np.searchsorted(marks.distance_m, marks.distance_m[last - 1] - reach))
-        self.behind = marks.part(slice(min(keep, last - 1), last))
+        self.behind = marks.part(slice(min(keep, last - 1), last)).without_standing()
 
     def take(self) -> tuple[FloatArray, FloatArray]:
         """Return smoothed height and 1-σ of the next block, all of whose samples are closed."""

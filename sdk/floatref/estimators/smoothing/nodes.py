@@ -1,7 +1,8 @@
 """What a filter leaves behind for the backward pass."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -79,14 +80,37 @@ class Nodes:
     def take_first(self, count: int) -> "Nodes":
         """Return the first ``count``, without the room behind them."""
         end = int(self.rows["updated"][count - 1]) if count else 0
-        return replace(self, rows=self.rows[:count], updates=self.updates[:end])
+        return Nodes(self.kind, self.rows[:count], self.updates[:end])
 
-    def split(self, sample: int) -> tuple["Nodes", "Nodes"]:
-        """Return those before ``sample``, and those behind."""
-        head = self.take_first(int(np.searchsorted(self.at, sample)))
-        end = len(head.updates)
-        rows = _shift_updates(self.rows[len(head.rows) :], -end)
-        return head, replace(self, rows=rows, updates=self.updates[end:])
+    def behind(self, filled: "Nodes") -> "Nodes":
+        """Return the room that is left behind those ``filled``, the first of this one."""
+        rows, updates = self.rows[len(filled.rows) :], self.updates[len(filled.updates) :]
+        return Nodes(self.kind, rows, updates)
+
+    def grow(self, filled: "Nodes", more: "Nodes") -> "Nodes":
+        """Return those ``filled`` and ``more``, the first `behind` them, without copying.
+
+        The updates of ``more`` are counted from the first of all afterwards.
+        """
+        more.rows["updated"] += len(filled.updates)
+        rows = self.rows[: len(filled.rows) + len(more.rows)]
+        updates = self.updates[: len(filled.updates) + len(more.updates)]
+        return Nodes(self.kind, rows, updates)
+
+    def split(self, samples: Sequence[int]) -> list["Nodes"]:
+        """Return those before each of ``samples``, which increase, and those behind the last.
+
+        Each part has memory of its own: what is stored of one keeps nothing of the others.
+        """
+        cuts = [0, *np.searchsorted(self.at, samples).tolist(), len(self.rows)]
+        return [self._copy(first, behind) for first, behind in pairwise(cuts)]
+
+    def _copy(self, first: int, behind: int) -> "Nodes":
+        """Return a copy of the nodes from ``first`` up to, without, ``behind``."""
+        begin, end = (int(self.rows["updated"][k - 1]) if k else 0 for k in (first, behind))
+        rows = self.rows[first:behind].copy()
+        rows["updated"] -= begin
+        return Nodes(self.kind, rows, self.updates[begin:end].copy())
 
     @classmethod
     def concatenate(cls, parts: Sequence["Nodes"]) -> "Nodes":
@@ -105,7 +129,8 @@ class Nodes:
         """Return the last node alone, without its updates."""
         rows = self.rows[-1:].copy()
         rows["updated"] = 0
-        return replace(self, rows=rows, updates=self.updates[:0])
+        # Of its own: a view of none would keep the memory of all.
+        return Nodes(self.kind, rows, self.updates[:0].copy())
 
     def back(self, before: int, step: float, adjoint: FloatArray) -> Records:
         """Return the corrections at each node.

@@ -57,6 +57,29 @@ class Settled:
         """Return the marks ``where``."""
         return Settled(*(values[where] for values in vars(self).values()))
 
+    def without_standing(self) -> "Settled":
+        """Return the first and the last mark of each standstill, and all others.
+
+        Those between have no weight in the filter. What passes from one mark to the next, and what
+        the readings add on the way, goes to the mark behind them.
+        """
+        from floatref.estimators.smoothing import covariance
+
+        place = self.distance_m
+        between = np.zeros(place.size, np.bool_)
+        between[1:-1] = (place[1:-1] == place[:-2]) & (place[1:-1] == place[2:])
+        passed, gathered = self.passed.copy(), self.gathered.copy()
+        covariance.compose(between, passed, gathered)
+        kept = ~between
+        return Settled(
+            self.at[kept],
+            place[kept],
+            self.column[kept],
+            passed[kept],
+            gathered[kept],
+            self.left[kept],
+        )
+
     def behind(self, other: "Settled") -> "Settled":
         """Return ``other`` with these marks behind it, all settled by what is known now."""
         return Settled.of((other, self))

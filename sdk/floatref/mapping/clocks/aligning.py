@@ -18,7 +18,7 @@ from floatref.mapping.clocks.clock_keys import (
     warn_of_beginning,
 )
 from floatref.mapping.clocks.columns import Taken
-from floatref.mapping.clocks.epochs import between_epochs, since_zero
+from floatref.mapping.clocks.epochs import between_epochs, passed, since_zero
 from floatref.mapping.clocks.stream_clock import Aligned, Timed, alignment_report
 from floatref.mapping.spool import Spool
 from floatref.measures.clocks.clock_alignment import (
@@ -118,7 +118,11 @@ class _Aligning:
         return named.get(key) or named.get((key[0], None))
 
     def _start(self, key: Key) -> Fraction:
-        return self._taken[key].start_s - self._zeros[clock_key(key, self._taken[key])]
+        taken = self._taken[key]
+        clock = clock_key(key, taken)
+        if taken.stream.clock.rate is not None:
+            return taken.start_s - self._zeros[clock]
+        return passed(self._zeros[clock], taken.start_s, clock[2])
 
     def _alignment(self, key: Key, entry: ClockEntry | None) -> Alignment | None:
         clock, base = (clock_key(k, self._taken[k]) for k in (key, self._base))

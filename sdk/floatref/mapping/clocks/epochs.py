@@ -1,9 +1,11 @@
 """From one epoch to another: UTC, GPS time, and the time of an unknown day."""
 
+from bisect import bisect_right
 from fractions import Fraction
 
 from floatref.measures.clocks.gnss_time import (
     GPS_EPOCH_UNIX_S,
+    LEAPS_UNIX_S,
     gps_minus_utc_at_gps_s,
     gps_minus_utc_s,
     warn_of_leap_seconds,
@@ -24,7 +26,7 @@ def between_epochs(own: Moment, base: Moment) -> tuple[Fraction, tuple[str, ...]
     before GPS time began, where both are needed.
     """
     if own[1] is base[1]:
-        return own[0] - base[0], (
+        return passed(base[0], own[0], own[1]), (
             "aligned by the absolute times of both clocks, as exactly as both were set",
         )
     if Epoch.DAY in (own[1], base[1]):
@@ -34,7 +36,19 @@ def between_epochs(own: Moment, base: Moment) -> tuple[Fraction, tuple[str, ...]
     utc = float(own[0] if own[1] is Epoch.UTC else base[0])
     line = f"aligned by UTC and GPS time, {gps_minus_utc_s(utc)} leap seconds apart"
     doubt = warn_of_leap_seconds(utc)
-    return _unix(own) - _unix(base), (line,) if doubt is None else (line, doubt)
+    return _gps(own) - _gps(base), (line,) if doubt is None else (line, doubt)
+
+
+def passed(since: Fraction, until: Fraction, epoch: Epoch) -> Fraction:
+    """Return how many s pass from ``since`` to ``until``, both in s after the zero of ``epoch``.
+
+    A day of UTC with a leap second is one second longer.
+    """
+    leaps = 0
+    if epoch is Epoch.UTC:
+        begin, end = (bisect_right(LEAPS_UNIX_S, float(at)) for at in (since, until))
+        leaps = end - begin
+    return until - since + leaps
 
 
 def _unix(moment: Moment) -> Fraction:
@@ -43,6 +57,14 @@ def _unix(moment: Moment) -> Fraction:
     if epoch is not Epoch.GPS:
         return seconds
     return seconds + GPS_EPOCH_UNIX_S - gps_minus_utc_at_gps_s(float(seconds))
+
+
+def _gps(moment: Moment) -> Fraction:
+    """Return ``moment`` in s of GPS time, whose seconds are all of one length."""
+    seconds, epoch = moment
+    if epoch is Epoch.GPS:
+        return seconds
+    return seconds - GPS_EPOCH_UNIX_S + gps_minus_utc_s(float(seconds))
 
 
 WEEK_S = 604_800

@@ -6,6 +6,7 @@ from fractions import Fraction
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.mapping.clocks.folded_times import Unfolding
 from floatref.mapping.clocks.stamps import Advancing, as_ticks
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.clock import LATEST_S
@@ -24,7 +25,7 @@ class Timing:
         """Begin before the first row."""
         self.rate, self.rows = rate, 0
         self._stream, self._clock = stream, stream.clock
-        self._advancing = Advancing()
+        self._unfolding, self._advancing = Unfolding(stream.clock), Advancing()
         self._first: int | float | None = None
         self._started = stream.clock.rate is not None or start_s is not None
         self._start = stream.clock.first_tick * stream.clock.tick_s
@@ -43,6 +44,7 @@ class Timing:
         elif ticks is None:
             raise InputError(f"stream {self._stream.name!r} has no time from its adapter")
         else:
+            ticks = self._unfolding(ticks)
             kept = self._advancing(ticks)
             times = self._since_first(ticks[kept])
         self.rows += times.size
@@ -73,6 +75,7 @@ class Timing:
         if seen < self._stream.count:
             yield f"has {seen} of {self._stream.count} rows; the file is truncated"
         yield from self._advancing.warnings()
+        yield from self._unfolding.warnings()
 
     def _count_ticks(self, rows: Rows, ticks: Ticks | None) -> FloatArray:
         assert self.rate is not None

@@ -14,6 +14,10 @@ from floatref.screening.plausibility import TRUNCATION_S
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
+DAY_S = 86_400.0
+TURN_S = 1024 * 7 * DAY_S
+"""Time in s after which the 10 bits of the GPS week begin again."""
+
 
 class Span(NamedTuple):
     """Times in s between which something was sampled."""
@@ -61,9 +65,20 @@ def _check(channel: Channel, span: Span, base: Channel, time: Span) -> None:
         return
     raise InputError(
         f"channel {channel.id}: its samples, from {span.begin:.10g} to {span.end:.10g} s, share no "
-        f"time with {base.id}, from {time.begin:.10g} to {time.end:.10g} s; correct under "
-        "[[clocks]] how its clock is aligned"
+        f"time with {base.id}, from {time.begin:.10g} to {time.end:.10g} s; {_remedy(span, time)}"
     )
+
+
+def _remedy(span: Span, time: Span) -> str:
+    """Return what to do where ``span`` and ``time`` share nothing."""
+    turns = (span.begin - time.begin) / TURN_S
+    if round(turns) and abs(turns - round(turns)) * TURN_S < DAY_S:
+        return (
+            f"they are {1024 * abs(round(turns))} weeks apart, by which a receiver is off that "
+            "missed a roll-over of the GPS week: update it, and align this run by base_time, "
+            "base_pps or an offset under [[clocks]]"
+        )
+    return "correct under [[clocks]] how its clock is aligned"
 
 
 def _unite(spans: Sequence[Span]) -> Span:

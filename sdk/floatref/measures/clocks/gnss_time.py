@@ -103,8 +103,9 @@ def _unix_s(day: str) -> int:
     return int(datetime.fromisoformat(day).replace(tzinfo=UTC).timestamp())
 
 
-_UNIX_S = tuple(_unix_s(day) for day in FIRST_DAYS)
-_GPS_S = tuple(s - GPS_EPOCH_UNIX_S + n for n, s in enumerate(_UNIX_S, start=1))
+LEAPS_UNIX_S = tuple(_unix_s(day) for day in FIRST_DAYS)
+"""Where each leap second ends, in s since 1970-01-01 UTC."""
+_GPS_S = tuple(s - GPS_EPOCH_UNIX_S + n for n, s in enumerate(LEAPS_UNIX_S, start=1))
 
 
 def gps_minus_utc_s(utc_unix_s: float) -> int:
@@ -114,7 +115,7 @@ def gps_minus_utc_s(utc_unix_s: float) -> int:
     """
     if not utc_unix_s >= GPS_EPOCH_UNIX_S:
         raise InputError(f"{utc_unix_s:.10g} s since 1970 is before GPS time began, 1980-01-06")
-    return bisect_right(_UNIX_S, utc_unix_s)
+    return bisect_right(LEAPS_UNIX_S, utc_unix_s)
 
 
 def gps_minus_utc_at_gps_s(gps_s: float) -> int:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from floatref.values.arrays import BoolArray, FloatArray, release
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel
 
@@ -14,12 +14,19 @@ CELLS = 5
 """Cells per step over which samples are averaged, with the mean of their times."""
 HALF = 4
 """Steps on either side whose samples the straight line of a point goes through."""
-BLOCK = 30 * RATE_HZ
-"""Points calculated together."""
+CELL_S = STEP_S / CELLS
+AWAY_S = CELL_S * (np.arange(2 * HALF * CELLS) + 0.5) - HALF * STEP_S
+"""Middles of the cells around a point, from it."""
+TURN = np.pi / (2 * HALF * STEP_S)
+"""What the distance from a point is multiplied by in cos⁴."""
+BLOCK = 5 * RATE_HZ
+"""Points calculated together: their samples stay in the cache."""
 FILLED = 0.7
 """Least share of the expected samples that a point needs."""
 THIN = 4
 """Samples per step above which those around a point alone are read."""
+BEYOND = 1e100
+"""What no sensor gives, in any unit, and damaged files hold: the square of it is a number still."""
 LOPSIDED = 0.1
 """Largest distance of the middle of their times from the point, as a share of the steps."""
 
@@ -27,6 +34,7 @@ LOPSIDED = 0.1
 def on_grid(channel: Channel, grid_s: FloatArray) -> FloatArray:
     """Return ``channel`` at ``grid_s``, every `STEP_S`, symmetrically smoothed; NaN in gaps.
 
+    Samples of `BEYOND` or more are missing.
     Samples count by cos⁴ of their distance in time, which is 6 dB down at 45 Hz, so that clocks of
     any rate, gaps and jitter leave no delay. Memory does not grow with the channel's rate.
     """
@@ -92,7 +100,9 @@ def _around(channel: Channel, points: FloatArray) -> tuple[FloatArray, FloatArra
     clock, begin_s, end_s = channel.clock, points[0] - 1.0, points[-1] + 1.0
     if isinstance(clock, UniformClock) and float(clock.rate) > THIN * RATE_HZ:
         middle = np.floor((points - clock.start_s) * float(clock.rate)).astype(np.int64)
-        near = np.unique(np.add.outer(middle, [-1, 0, 1, 2]).clip(0, channel.values.size - 1))
+        # More than four samples lie between two points: none of these are the same.
+        near = np.add.outer(middle, [-1, 0, 1, 2]).ravel()
+        near = near[(near >= 0) & (near < channel.values.size)]
         values = channel.values[near]
         if not np.isnan(values.sum()):
             release(channel.values)
@@ -101,25 +111,52 @@ def _around(channel: Channel, points: FloatArray) -> tuple[FloatArray, FloatArra
     return _between(channel, begin_s, end_s)
 
 
+def _in_cells(
+    times: FloatArray, values: FloatArray, begin_s: float, cells: int
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return of each cell from ``begin_s`` on the samples, their mean, and that of their times.
+
+    The latter is from the middle of the cell.
+    """
+    # NaN is not less either.
+    known = np.abs(values) < BEYOND
+    if not known.all():
+        times, values = times[known], values[known]
+    # Samples come in order, so each cell is a stretch of them. One at an edge is in the cell behind
+    # it, whatever rounding does.
+    first = np.searchsorted(times, begin_s + CELL_S * (np.arange(cells + 1) - 1e-3))
+    count = np.diff(first).astype(np.float64)
+    middles = begin_s + CELL_S * (np.arange(cells) + 0.5)
+    mean, time_s = (_means(x[: first[-1]], first, count) for x in (values, times))
+    return count, mean, np.where(count > 0, time_s - middles, 0.0)
+
+
+def _means(x: FloatArray, first: IndexArray, count: FloatArray) -> FloatArray:
+    """Return the means of ``x`` between the indices ``first``; any number where nothing lies."""
+    # What is behind the last sample: a stretch may begin there.
+    sums = np.add.reduceat(np.append(x, 0.0), first[:-1])
+    return np.asarray(sums / np.maximum(count, 1.0))
+
+
 def _smooth(times: FloatArray, values: FloatArray, points: FloatArray, fewest: float) -> FloatArray:
     """Return straight lines through the samples around each of ``points``; NaN for too few."""
-    known = ~np.isnan(values)
-    width = (points.size - 1 + 2 * HALF) * CELLS + 1
-    begin = points[0] - HALF * STEP_S
+    cells = (points.size - 1 + 2 * HALF) * CELLS
+    begin_s = points[0] - HALF * STEP_S
     # A vehicle moves by less than a millimetre in a cell: its middle is where its mean is.
-    cell = np.floor((times[known] - begin) / STEP_S * CELLS).astype(np.int64).clip(0, width - 1)
-    count = np.bincount(cell, minlength=width).astype(np.float64)
-    filled = np.maximum(count, 1.0)
-    middle = np.bincount(cell, times[known] - begin, width) / filled
-    mean = np.bincount(cell, values[known], width) / filled
-    count, middle, mean = (
-        np.lib.stride_tricks.sliding_window_view(x, 2 * HALF * CELLS)[::CELLS][: points.size]
-        for x in (count, middle, mean)
+    count, mean, off = _in_cells(times, values, begin_s, cells)
+    turned = np.cos(TURN * off), np.sin(TURN * off)
+    count, mean, off, cosine, sine = (
+        np.lib.stride_tricks.sliding_window_view(x, 2 * HALF * CELLS)[::CELLS]
+        for x in (count, mean, off, *turned)
     )
-    away = middle - (HALF * STEP_S + STEP_S * np.arange(points.size))[:, None]
-    weight = count * np.cos(np.pi / (2 * HALF * STEP_S) * away) ** 4
-    s0, s1, s2 = (np.sum(weight * away**n, axis=1) for n in (0, 1, 2))
-    level = np.sum(weight * mean, axis=1) * s2 - np.sum(weight * mean * away, axis=1) * s1
+    away = off + AWAY_S
+    # The cosine of a sum: of a cell's own samples, and of the cell's place beside the point.
+    weight = count * np.square(
+        np.square(cosine * np.cos(TURN * AWAY_S) - sine * np.sin(TURN * AWAY_S))
+    )
+    first = weight * away
+    s0, s1, s2 = weight.sum(axis=1), first.sum(axis=1), np.sum(first * away, axis=1)
+    level = np.sum(weight * mean, axis=1) * s2 - np.sum(first * mean, axis=1) * s1
     enough = count.sum(axis=1) >= fewest
     with np.errstate(divide="ignore", invalid="ignore"):
         even = np.abs(s1 / s0) <= LOPSIDED * HALF * STEP_S

@@ -8,15 +8,17 @@ Acceleration and height must not be tapered before the integration, or a swing t
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from floatref.measures.clocks.skew_series import RATE_HZ, STEP_S
+from floatref.measures.clocks.skew_series import BEYOND, RATE_HZ, STEP_S
 from floatref.values.arrays import FloatArray
 
 LARGEST = 10
 """Largest skew in steps of the grid either way: 50 ms."""
-ROUNDS = 6
+ROUNDS, SETTLED_S = 6, 1e-8
+"""Most rounds, and the step of the skew in s behind which another one changes nothing."""
 LEAST_ALIKE = 0.8
 """Least correlation at the best whole step; half a step lowers it by 0.05 at 20 Hz."""
 
@@ -53,7 +55,8 @@ class SkewWindow:
 def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -> SkewWindow | None:
     """Return the result of ``count`` points from ``first`` on.
 
-    None if samples are missing, and where the two do not correlate at any skew.
+    None if samples are missing or beyond all numbers that a sensor gives, and where the two do not
+    correlate at any skew.
 
     ``force`` in m/s² and ``height`` in m, on one grid of `RATE_HZ`.
     """
@@ -61,7 +64,8 @@ def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -
     if begin < 0 or end > force.size:
         return None
     acceleration, seen = force[begin:end], height[first : first + count]
-    if np.isnan(acceleration).any() or np.isnan(seen).any():
+    # NaN is not less either.
+    if not max(np.abs(acceleration).max(), np.abs(seen).max()) < BEYOND:
         return None
     body = _Body(acceleration, count)
     y = body.bare(seen)
@@ -72,7 +76,9 @@ def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -
         (gain, late), z, v = body.fit(y, skew_s)
         if not gain > 0:
             return None
-        skew_s = float(np.clip(skew_s + late / gain, -LARGEST * STEP_S, LARGEST * STEP_S))
+        skew_s = min(max(skew_s + late / gain, -LARGEST * STEP_S), LARGEST * STEP_S)
+        if abs(late) < SETTLED_S * gain:
+            break
     if abs(skew_s) >= LARGEST * STEP_S:
         return None
     rest = y - gain * z + late * v
@@ -87,6 +93,13 @@ def skew_window(force: FloatArray, height: FloatArray, first: int, count: int) -
     )
 
 
+@lru_cache(maxsize=16)
+def _frame(count: int) -> tuple[FloatArray, FloatArray]:
+    """Return an orthonormal basis of parabolas over ``count`` points, and the taper."""
+    basis, _ = np.linalg.qr(np.vander(np.linspace(-1.0, 1.0, count), 3))
+    return basis, np.sin(np.pi * (np.arange(count) + 0.5) / count)
+
+
 class _Body:
     """Velocity and place of the body by integration, over a window and its surroundings."""
 
@@ -95,9 +108,7 @@ class _Body:
         self.velocity = _integral(acceleration - acceleration.mean())
         self.velocity -= self.velocity.mean()
         self.place = _integral(self.velocity)
-        powers = np.vander(np.linspace(-1.0, 1.0, count), 3)
-        self.open, _ = np.linalg.qr(powers)
-        self.taper = np.sin(np.pi * (np.arange(count) + 0.5) / count)
+        self.open, self.taper = _frame(count)
 
     def bare(self, series: FloatArray) -> FloatArray:
         """Return ``series`` tapered, without the parabola of the constants of integration."""
@@ -117,23 +128,31 @@ class _Body:
         self, y: FloatArray, skew_s: float
     ) -> tuple[tuple[float, float], FloatArray, FloatArray]:
         """Return gain and gain·(further skew in s) of ``y``, with place and velocity by then."""
-        at = np.arange(LARGEST + 1, LARGEST + 1 + self.count) - skew_s * RATE_HZ
-        before = np.clip(np.floor(at).astype(np.int64), 0, self.place.size - 2)
-        s = at - before
-        v = self.velocity[before] * (1 - s) + self.velocity[before + 1] * s
+        whole, s = divmod(LARGEST + 1 - skew_s * RATE_HZ, 1.0)
+        here = slice(int(whole), int(whole) + self.count)
+        there = slice(here.start + 1, here.stop + 1)
         # Cubic between points, by place and velocity at both.
-        z = (1 + 2 * s) * (1 - s) ** 2 * self.place[before]
-        z += s**2 * (3 - 2 * s) * self.place[before + 1]
-        z += (
-            s * (1 - s) * STEP_S * ((1 - s) * self.velocity[before] - s * self.velocity[before + 1])
-        )
-        z, v = self.bare(z), self.bare(v)
-        (gain, late), *_ = np.linalg.lstsq(np.stack([z, -v], axis=1), y, rcond=None)
-        return (float(gain), float(late)), z, v
+        v0, v1 = self.velocity[here], self.velocity[there]
+        z = (1 + 2 * s) * (1 - s) ** 2 * self.place[here]
+        z += s**2 * (3 - 2 * s) * self.place[there]
+        z += s * (1 - s) * STEP_S * ((1 - s) * v0 - s * v1)
+        z, v = self.bare(z), self.bare(v0 * (1 - s) + v1 * s)
+        return _solve(z, v, y), z, v
+
+
+def _solve(z: FloatArray, v: FloatArray, y: FloatArray) -> tuple[float, float]:
+    """Return a and b of a z − b v that is nearest to ``y``; zeros where both are one signal."""
+    zz, zv, vv, zy, vy = (float(p @ q) for p, q in ((z, z), (z, v), (v, v), (z, y), (v, y)))
+    size = zz * vv - zv * zv
+    if not size > 1e-12 * zz * vv:
+        return 0.0, 0.0
+    return (zy * vv - vy * zv) / size, (zy * zv - vy * zz) / size
 
 
 def _integral(series: FloatArray) -> FloatArray:
     """Return the integral of the cubic through the points, 0 at the first of them."""
-    wide = np.pad(series, 1, mode="reflect", reflect_type="odd")
-    steps = 13.0 * (series[1:] + series[:-1]) - wide[:-3] - wide[3:]
+    # Beyond either end the series goes on along the line of its last two points.
+    before = np.append(2.0 * series[0] - series[1], series[:-2])
+    behind = np.append(series[2:], 2.0 * series[-1] - series[-2])
+    steps = 13.0 * (series[1:] + series[:-1]) - before - behind
     return np.concatenate([[0.0], np.cumsum(steps) * (STEP_S / 24.0)])

@@ -25,6 +25,8 @@ CLIPPED_AT = 3.0
 """Slopes are clipped at this many times their 90th percentile, for artefacts would outweigh all."""
 LEAST_VALID_M = 50.0
 """With less than that marked valid, all measured points are used."""
+BEYOND = 1e100
+"""An elevation of a damaged file, in any unit: its square is a number still."""
 HIGHEST = 9e5
 """Elevations beyond are refused by filters; a road in mm may be higher."""
 
@@ -79,10 +81,13 @@ def slope_of(
 
 
 def usable_points(track: ProfileTrack, interval_m: float) -> BoolArray:
-    """Return the valid points of ``track``, or all measured ones if too few of them are."""
-    if np.count_nonzero(track.valid) * interval_m >= LEAST_VALID_M:
-        return track.valid
-    return flags_where(np.isfinite, track.elevation)
+    """Return the valid points of ``track``, or all measured ones if too few of them are.
+
+    A point of `BEYOND` or more is not usable.
+    """
+    measured = flags_where(lambda z: np.abs(z) < BEYOND, track.elevation)
+    usable = track.valid & measured
+    return usable if np.count_nonzero(usable) * interval_m >= LEAST_VALID_M else measured
 
 
 def _fill(

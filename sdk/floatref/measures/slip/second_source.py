@@ -7,6 +7,7 @@ import numpy as np
 from floatref.measures.slip.encoder_motion import SMOOTHED_S, STEP_S, Motion, derivatives
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
+from floatref.values.encoder import FASTEST_MPS
 from floatref.values.recording import Channel, Recording
 
 SOURCES = "optical_distance", "gnss_speed"
@@ -143,7 +144,8 @@ def _least_squares(columns: FloatArray, y: FloatArray) -> tuple[FloatArray, Floa
 
 def _road_by(name: str, source: Channel, times_s: FloatArray) -> Motion:
     """Return the motion by ``source`` at ``times_s``, smoothed as the encoder's, NaN if unknown."""
-    known = ~np.isnan(source.values)
+    # NaN is not less either; `check_origins` has refused a distance beyond.
+    known = np.abs(source.values) <= (FASTEST_MPS if name == "gnss_speed" else np.inf)
     if known.sum() < 2:
         return Motion(times_s, *np.full((3, times_s.size), np.nan))
     times, values = source.times_s[known], source.values[known]

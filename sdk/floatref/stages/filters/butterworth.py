@@ -1,7 +1,8 @@
 """The filter stages of appendix A, streaming and in reverse, in time and in distance."""
 
 import math
-from typing import ClassVar
+from copy import deepcopy
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -59,7 +60,7 @@ class ButterworthStage(Stage):
                 flags[channel] = marks
         return block.setting(values, flags)
 
-    def _apply(self, x: FloatArray, y: FloatArray, memory: np.record) -> None:
+    def _apply(self, x: FloatArray, y: FloatArray, memory: Any) -> None:
         from floatref.kernels import state_variable
 
         kernel = {
@@ -99,6 +100,23 @@ class LowPassB3S2(ButterworthStage):
     order, passes_high = 2, False
 
 
+class LowPassB3(ButterworthStage):
+    """LPF_B3: LPF_B3S1 and LPF_B3S2 in one pass over a block, bit for bit."""
+
+    order, passes_high = 3, False
+
+    def open(self, header: Header) -> Header:
+        """Refuse a cut-off as either stage does; remember what both do."""
+        header = super().open(header)
+        self.memory = {track: (each, deepcopy(each)) for track, each in self.memory.items()}
+        return header
+
+    def _apply(self, x: FloatArray, y: FloatArray, memory: tuple[np.record, np.record]) -> None:
+        from floatref.kernels import state_variable
+
+        state_variable.low_pass_12(read_only(x), y, *memory, self._c)
+
+
 class HighPassB3S1R(HighPassB3S1):
     """HPF_B3S1R: HPF_B3S1 from the last sample to the first, started by (A.18)."""
 
@@ -130,7 +148,7 @@ def high_pass_b3(channel: str, cutoff: float) -> tuple[Stage, ...]:
 
 def low_pass_b3(channel: str, cutoff: float) -> tuple[Stage, ...]:
     """Return LPF_B3: LPF_B3S1 followed by LPF_B3S2."""
-    return LowPassB3S1(channel, cutoff), LowPassB3S2(channel, cutoff)
+    return (LowPassB3(channel, cutoff),)
 
 
 def high_pass_b3x2(channel: str, cutoff: float) -> tuple[Stage, ...]:

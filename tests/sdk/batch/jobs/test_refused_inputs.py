@@ -7,6 +7,7 @@ import pytest
 
 from floatref.batch.jobs.inputs import Defaults, find_jobs
 from floatref.errors import InputError
+from floatref.files.search import counted_listing
 
 
 @pytest.mark.posix
@@ -79,3 +80,16 @@ def test_a_folder_that_cannot_be_listed_is_told(tree, find, monkeypatch):
     monkeypatch.setattr(os, "scandir", refusing)
     with pytest.raises(InputError, match="csv: Permission denied; make it readable"):
         find(tree)
+
+
+@pytest.mark.parametrize("pattern", ["**/*.nope", "*/*/*/*.nope", "*", "csv/*"])
+def test_a_pattern_that_leads_through_too_much_is_refused(tree, find, monkeypatch, pattern):
+    monkeypatch.setattr(counted_listing, "MOST", 8)
+    for number in range(9):
+        (tree / "csv" / f"{number}.md").touch()
+    with pytest.raises(InputError) as caught:
+        find(tree / pattern)
+    assert str(caught.value) == (
+        f"{tree / pattern}: more than 8 files and folders to look at; name a folder nearer to the "
+        "files, or the files themselves"
+    )

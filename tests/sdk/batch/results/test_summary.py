@@ -15,9 +15,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.batch.results import summary
-from floatref.batch.results.cells import read_cell
 from floatref.batch.results.record import Record, Row
 from floatref.batch.results.summary import COLUMNS, CSV, NOT_COLUMNS, PARQUET, write_summary
+from floatref.values.display.spreadsheet_cells import read_cell
 
 parquet = pytest.importorskip(
     "pyarrow.parquet", reason="pyarrow writes Parquet; it comes with floatref[batch]"
@@ -164,3 +164,16 @@ def test_no_records_give_a_head_alone(tmp_path: Path) -> None:
     write_summary([], tmp_path)
     assert read(tmp_path) == ([], [])
     assert (tmp_path / CSV).read_text().split("\n")[0].strip() == ",".join(COLUMNS)
+
+
+@pytest.mark.parametrize(
+    "name", ["=cmd|' /C calc'!A0", "+1+1", "-2+3", "@SUM(A1)", " =1", "\t=1", "\x1b[31mred"]
+)
+def test_a_hostile_name_is_harmless(tmp_path: Path, name: str) -> None:
+    write_summary([Record(name, name, error=f"{name}: no such file")], tmp_path)
+    with (tmp_path / CSV).open(encoding="utf-8", newline="") as stream:
+        (row,) = csv.DictReader(stream)
+    for column in ("file", "name"):
+        assert row[column][0] == "'" or name[0] == "\x1b"
+        assert "\x1b" not in row[column]
+        assert read_cell(row[column]) == name

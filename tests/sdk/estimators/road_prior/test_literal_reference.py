@@ -60,7 +60,7 @@ def test_heights_and_covariances_agree(drive, through, seed, rate, stop, share):
     line = stage.memory["backlog"].lines["left"]
     stage.memory["excitation"].end()
     stage._filter_known()
-    line.end_segment(drawn.a.size)
+    line.end_segment()
     (segment,) = line.segments
     found = np.diag(covariances(Settled.of([segment.marks])))
     sure = expected.sigma_r[0][segment.marks.at]

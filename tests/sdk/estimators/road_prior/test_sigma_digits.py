@@ -76,7 +76,7 @@ def marks_of(drive, c):
     stage.memory["excitation"].end()
     stage._filter_known()
     line = stage.memory["backlog"].lines["left"]
-    line.end_segment(drive.a.size)
+    line.end_segment()
     return Settled.of([line.segments[0].marks])
 
 

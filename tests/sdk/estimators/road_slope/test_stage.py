@@ -100,6 +100,10 @@ def test_a_run_without_brakes_is_left_bit_for_bit() -> None:
     np.testing.assert_array_equal(out[HEIGHT], steady[HEIGHT])
     assert not out[SHARE].any()
     assert not out[SIGMA].any()
+    # Blocks wait for minutes: what is left has no copy, and all zeros are one array.
+    assert np.shares_memory(out[FORCE], steady[FORCE])
+    assert np.shares_memory(out[HEIGHT], steady[HEIGHT])
+    assert np.shares_memory(out[SHARE], out[SIGMA])
 
 
 @pytest.mark.parametrize("samples", [1, 7, 24, 40])

@@ -148,3 +148,17 @@ def test_a_short_run_or_one_without_readings_moves_nowhere() -> None:
         assert not Motion.of(Channel.of("distance", values, clock)).speed.size
         recording = Recording((Channel.of("distance", values, clock),))
         assert correct_distance(recording, 0.05).recording is recording
+
+
+@pytest.mark.parametrize("speed", [-100.0, 1e200, 1.7e308])
+def test_speeds_that_no_profiler_reaches_are_as_if_missing(speed: float) -> None:
+    found = []
+    for value in (np.nan, speed):
+        recording = recorded(0.03, 0.0, "gnss_speed")
+        distance, source = recording.channels
+        values = source.values.copy()
+        values[[50, 51, 200]] = value
+        damaged = Channel.of("gnss_speed", values, source.clock)
+        found.append(find_wheel(Recording((distance, damaged)), distance, Motion.of(distance)))
+    assert found[0] is not None
+    assert found[0] == found[1]

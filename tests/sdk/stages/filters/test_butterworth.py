@@ -1,6 +1,7 @@
 """The filter sets as stages, and the cut-offs that a stage refuses."""
 
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -34,6 +35,29 @@ def test_a_set_of_stages_is_the_printed_one(name, cutoff, cut, seed):
     _, out = flow.run(getattr(butterworth, name)("elevation", cutoff), HEADER, blocks)
     found = np.concatenate([block[ELEVATION] for block in out])
     assert np.abs(found - SETS[name](x, cutoff, 0.05)).max() <= 1e-10
+
+
+def through(stages, x, cuts):
+    bounds = sorted({0, *cuts, x.size})
+    blocks = [Block(a, {ELEVATION: x[a:b]}) for a, b in pairwise(bounds)]
+    _, out = flow.run(stages, HEADER, blocks)
+    return np.concatenate([block[ELEVATION] for block in out])
+
+
+@settings(deadline=None, max_examples=30)
+@given(
+    cutoff=st.floats(0.01, 4.0),
+    cuts=st.lists(st.integers(1, 199), max_size=4),
+    missing=st.lists(st.integers(0, 199), max_size=9),
+    lead=st.integers(0, 200),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_one_pass_of_a_low_pass_has_the_bits_of_two(cutoff, cuts, missing, lead, seed):
+    x = np.random.default_rng(seed).standard_normal(200)
+    x[missing], x[:lead] = np.nan, np.nan
+    two = [each("elevation", cutoff) for each in (butterworth.LowPassB3S1, butterworth.LowPassB3S2)]
+    one = through(butterworth.low_pass_b3("elevation", cutoff), x, cuts)
+    np.testing.assert_array_equal(one, through(two, x, cuts))
 
 
 @pytest.mark.parametrize("cutoff", [0.0, -1.0, 10.0, float("nan")])
