@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from floatref.files import check_file as check_file
     from floatref.files import map_bytes as map_bytes
     from floatref.files import open_bytes as open_bytes
+    from floatref.files import read_apart as read_apart
     from floatref.files import read_bytes as read_bytes
     from floatref.files import read_profile as read_profile
     from floatref.files import read_recording as read_recording
@@ -212,6 +213,7 @@ _PUBLIC = {
     "pipeline_capabilities": "engine.run",
     "pipelines": "engine.run",
     "process": "notebook",
+    "read_apart": "files",
     "read_bytes": "files",
     "read_native": "mapping",
     "read_profile": "files",

@@ -24,8 +24,6 @@ STARTING_S = 120.0
 """In which a fuzzer starts and ends on a busy machine, beside the seconds that it is given."""
 OWN = ("csv", "erd", "map", "vendor_logger", "firmware_c")
 """Those with a script of their own."""
-CRASHES = MappingProxyType({"open_crg": "the OpenCRG library ends the process on damaged files"})
-"""Those left out unless they are named, and why: what they find is known, and not mended yet."""
 UNGUIDED = ("firmware_c",)
 """Those that atheris cannot guide."""
 ENTRIES: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -96,9 +94,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--atheris", action="store_true")
     parser.add_argument("names", nargs="*", metavar="NAME", help="these alone")
     given = parser.parse_args(arguments)
-    names = given.names or [name for name in ENTRIES if name not in CRASHES]
-    for name in () if given.names else CRASHES:
-        print(f"{name}: left out, {CRASHES[name]}")
+    names = given.names or list(ENTRIES)
     if unknown := set(names) - set(ENTRIES):
         parser.error(f"no entry {', '.join(sorted(unknown))}; known: {', '.join(ENTRIES)}")
     commands = {n: command(n, given.seconds, given.corpora, given.atheris) for n in names}

@@ -41,6 +41,7 @@ LIBRARIES = {
 ALLOWED = {
     "sdk/floatref/files/mapped/mapped_files.py:memmap": "maps what the door has opened",
     "sdk/floatref/files/mapped/cut_files.py:mmap": "mmap(2), of no file",
+    "sdk/floatref/files/child_process.py:read_text": "/proc/self/statm",
     "sdk/floatref/files/schema.py:read_text": "a file of the package",
     "sdk/floatref/c/amalgamation.py:read_text": "files of the package",
     "sdk/floatref/viewer/page_writer.py:read_text": "files of the package",
@@ -51,7 +52,6 @@ ALLOWED = {
     "sdk/floatref/live/session/peers.py:open": "the descriptor of standard input",
     "sdk/floatref/live/session/run_lock.py:open": "the descriptor of a directory that is locked",
     "sdk/floatref/batch/work/task.py:read_text": "/proc/self/status",
-    "adapters/floatref_adapters/formats/hdf5/child_process.py:read_text": "/proc/self/statm",
     "adapters/floatref_adapters/formats/mcap_log/mcap_reading.py:memmap": "a temporary file",
     "adapters/floatref_adapters/formats/tdms/group_rows.py:open": "npTDMS on an opened stream",
     "adapters/floatref_adapters/formats/mdf4/mdf_opening.py:MDF": "asammdf on an opened stream",

@@ -4,6 +4,7 @@ A directory holds one JSON file and raw little-endian float64 files beside it. S
 on reading and on writing; a directory is written completely or not at all.
 """
 
+from floatref.files.child_process import read_apart
 from floatref.files.fingerprint import fingerprint, fingerprint_native
 from floatref.files.mapped.mapped_files import map_bytes
 from floatref.files.profile_csv import write_profile_csv
@@ -19,6 +20,7 @@ __all__ = [
     "fingerprint_native",
     "map_bytes",
     "open_bytes",
+    "read_apart",
     "read_bytes",
     "read_profile",
     "read_recording",

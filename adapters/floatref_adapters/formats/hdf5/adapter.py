@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from floatref import InputError, NativeFile, read_start
-from floatref_adapters.formats.hdf5.child_process import read_in_child
+from floatref_adapters.formats.hdf5.apart import read_hdf5_apart
 from floatref_adapters.shared.refusals import prefix_errors
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -40,7 +40,7 @@ class Hdf5:
         if not source.is_file():
             raise InputError(f"{source}: not a file; give an HDF5 file")
         with prefix_errors(source):
-            return read_in_child(source, options)
+            return read_hdf5_apart(source, options)
 
 
 __all__ = ["Hdf5"]

@@ -1,7 +1,7 @@
 """HDF5 files read in this process: what is in them, and rows of it, through h5py."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +38,25 @@ def native_file(source: Path, options: Mapping[str, str]) -> NativeFile:
         decode_text(tree.attributes.get("vendor", "")),
         decode_text(tree.attributes.get("model", "")),
     )
+
+
+def list_streams(source: Path, options: Mapping[str, str]) -> Iterator[NativeFile]:
+    """Yield `native_file` once, with readers that read nothing, as another process takes it."""
+    native = native_file(source, options)
+    bare = [replace(stream, read=_read_nothing) for stream in native.streams]
+    yield replace(native, streams=tuple(bare))
+
+
+def read_stream(
+    source: Path, options: Mapping[str, str], stream: int, names: Sequence[str]
+) -> Iterator[Rows]:
+    """Yield the rows of the columns ``names`` of one stream of `native_file`, by its number."""
+    yield from native_file(source, options).streams[stream].read(names)
+
+
+def _read_nothing(names: Sequence[str]) -> Iterator[Rows]:
+    """Stand for the reader of a stream on its way to another process."""
+    return iter(())
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,8 @@ The wheel paths lie at their lateral positions from the file's reference line, a
 that leaves them meets the surface beside them. The file starts where a made road carries its whole
 roughness. Before and beyond its ends the surface is mirrored, which keeps neighbouring lines
 together, less one slope along the road for all of them, which has no roughness: otherwise a
-graded surface would become a roof.
+graded surface would become a roof. The file is read in a process of its own, for the OpenCRG
+library ends the process on many that are damaged.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,6 +17,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from floatref.errors import InputError, missing_extra
+from floatref.files.child_process import LONGEST_SILENCE_S, MOST_MEMORY, read_apart
 from floatref.files.sources import check_file, name_errors
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref_conformance.proving_ground.roads.road import (
@@ -37,6 +39,12 @@ ROUNDING_M = 1e-6
 """A line this far beyond an edge is on it: positions in a file are rounded."""
 FEWEST_POINTS = 4
 """Fewest cross sections of which a road is made, as of points of a profile."""
+BYTES_PER_POINT = 512
+"""What splines through a surface take: some thirty numbers per point, and as many again."""
+BYTES_PER_BYTE = 8
+"""What a surface takes per byte of its file: at most a double per digit."""
+SLOWEST = 1e6
+"""Bytes per s: a file is given the time that it takes at this rate, beyond what each has."""
 
 
 def crg_road(
@@ -54,7 +62,36 @@ def crg_road(
     narrow for a wheel path.
     """
     sides = lateral_positions(tracks)
-    x = start_m + spacing_m * np.arange(points_of(length_m, spacing_m, start_m), dtype=np.float64)
+    points = points_of(length_m, spacing_m, start_m)
+    size = _check(path)
+    (elevation,) = read_apart(
+        f"{__name__}:read_lines",
+        (path, start_m + spacing_m * np.arange(points, dtype=np.float64), line, dict(sides)),
+        f"{path}: not a whole OpenCRG file (the library that reads it broke down); "
+        "copy the complete file again",
+        LONGEST_SILENCE_S + size / SLOWEST,
+        MOST_MEMORY + BYTES_PER_POINT * points + BYTES_PER_BYTE * size,
+    )
+    return with_level_start(Road(start_m, spacing_m, elevation, sides))
+
+
+def _check(path: Path) -> int:
+    """Return the bytes of a file that pycrg can be given; InputError if it or pycrg is missing."""
+    check_file(path)
+    try:
+        import pycrg as pycrg
+    except ImportError as error:
+        raise missing_extra(f"{path}: reading OpenCRG needs pycrg", "conformance") from error
+    return path.stat().st_size
+
+
+def read_lines(
+    path: Path, x: FloatArray, line: Line | None, sides: Mapping[str, float]
+) -> Iterator[dict[str, FloatArray]]:
+    """Yield once the elevation in m of each wheel path at ``x`` m, each of the shape of ``x``.
+
+    ``sides`` are the lateral positions in m. Raises InputError that names the file.
+    """
     with _opened(path) as surface, name_errors(path):
         (begin, end), (step, _) = surface.u_range(), surface.increments()
         sections = round((end - begin) / step) + 1
@@ -67,21 +104,17 @@ def crg_road(
         at = FULL_FROM_M + step * knots.astype(np.float64)
         rows = sections - 1 - np.abs(np.mod(knots, 2 * (sections - 1)) - (sections - 1))
         shift = np.zeros(knots.size) if line is None else line.at(at)
-        elevation = {
+        yield {
             name: CubicSpline(at, _sample(surface, rows, side + shift) - slope * rows)(x)
             for name, side in sides.items()
         }
-    return with_level_start(Road(start_m, spacing_m, elevation, sides))
 
 
 @contextmanager
 def _opened(path: Path) -> Iterator["pycrg.RoadSurface"]:
     """Open an OpenCRG file as it is stored but for its own modifiers, holes kept as holes."""
-    check_file(path)
-    try:
-        import pycrg
-    except ImportError as error:
-        raise missing_extra(f"{path}: reading OpenCRG needs pycrg", "conformance") from error
+    import pycrg
+
     try:
         with pycrg.RoadSurface.open(path, apply_modifiers=False) as surface:
             surface.modifier_set_int(pycrg.MOD_GRID_NAN_MODE, pycrg.GRID_NAN_KEEP)

@@ -1,5 +1,6 @@
 """Roads of OpenCRG surfaces: the file's elevation under every line, holes and edges refused."""
 
+import subprocess
 import sys
 from math import floor
 from pathlib import Path
@@ -19,6 +20,11 @@ pycrg = pytest.importorskip(
 
 STEP_M, ACROSS_M, HALF_M = 0.05, 0.02, 1.2
 SECTIONS = 801
+ALONE = """
+import sys, numpy
+from floatref_conformance.proving_ground.roads.crg import read_lines
+list(read_lines(sys.argv[1], numpy.arange(9.0), None, {"left": 0.5}))
+"""
 V = -HALF_M + ACROSS_M * np.arange(121)
 U = STEP_M * np.arange(SECTIONS)
 
@@ -127,6 +133,22 @@ def test_what_is_no_surface_is_named_in_one_line(
     with pytest.raises(InputError, match="3 cross sections"):
         crg_road(write(tmp_path / "c.crg", hills()[:3]), 60.0)
     assert caplog.records == []
+
+
+def test_damage_that_ends_the_process_of_the_library_is_refused_in_one_line(tmp_path: Path) -> None:
+    """Without its end, and with longer steps, pycrg ends its process by a segmentation fault."""
+    pycrg.write(tmp_path / "a.crg", hills()[:6, ::30], 0.5, V[::30], u0=100.0)
+    damaged = (tmp_path / "a.crg").read_bytes()
+    longer = b"increment  =   5.0000000000000000e"
+    for whole, part in ((b"reference_line_end_u", b"xeference_line_end_u"), (longer, longer[:-1])):
+        assert whole in damaged
+        damaged = damaged.replace(whole, part, 1)
+    path = tmp_path / "broken.crg"
+    path.write_bytes(damaged)
+    with pytest.raises(InputError, match=r"broken\.crg: .*broke down\); copy the complete file"):
+        crg_road(path, 60.0)
+    seen = subprocess.run([sys.executable, "-c", ALONE, str(path)], capture_output=True)
+    assert seen.returncode < 0, "the library has been mended: this tries nothing any more"
 
 
 def test_a_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
