@@ -92,14 +92,12 @@ def hits(lines: Iterable[Line], pattern: str) -> list[str]:
     ]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("word", PATTERNS)
 def test_no_text_has_the_word(word: str) -> None:
     found = hits(every_line(), PATTERNS[word])
     assert not found, "\n".join(found)
 
 
-@pytest.mark.slow
 def test_what_is_allowed_is_still_there() -> None:
     there = dict.fromkeys(ALLOWED, "")
     for name, _, line in every_line():
