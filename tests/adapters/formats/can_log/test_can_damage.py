@@ -23,7 +23,7 @@ from floatref_adapters.testing.can_log import WHEELS_DBC, WHEELS_ID, wheels_data
 from floatref_adapters.testing.whole_reading import table_of
 
 pytestmark = pytest.mark.slow
-damage = settings(deadline=None, max_examples=60)
+damage = settings(deadline=None)
 HEADER, OBJECTS = 144, 16 + 16
 """Bytes of a BLF log before its container, and of the container before its objects."""
 MOST_BYTES = 64 << 20
