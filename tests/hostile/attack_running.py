@@ -96,6 +96,9 @@ def begin(words: Sequence[str], here: Path, temporary: Path) -> int:
     process = os.fork()
     if process == 0:
         _become(words, here, temporary)
+    # Before that a signal to its group finds nobody.
+    while os.getpgid(process) != process:
+        time.sleep(0.001)
     return process
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floatref import InputError, Profile, ProfileTrack, check_file, open_bytes
-from floatref_adapters.formats.arrow.parquet_file import count_rows
+from floatref_adapters.formats.arrow.parquet_file import all_batches
 from floatref_adapters.formats.arrow.parquet_footer import FORMAT, begins_as_parquet, holds_profile
 from floatref_adapters.formats.arrow.parquet_pages import check_pages
 from floatref_adapters.shared.profile_columns import (
@@ -118,9 +118,8 @@ def _profile(file: Any, stream: BinaryIO) -> Profile:
     _check_columns(there, names)
     parts: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
     done = 0
-    count_rows(file.metadata)
     check_pages(stream, names)
-    for batch in file.iter_batches(ROWS, columns=list(parts)):
+    for batch in all_batches(file, ROWS, names):
         _check_distance(_floats(batch, DISTANCE), description.start_m, description.interval_m, done)
         for name, values in parts.items():
             values.append(_flags(batch, name) if name.endswith("_valid") else _floats(batch, name))

@@ -52,6 +52,15 @@ def test_rows_that_no_row_group_holds_are_refused(tmp_path: Path) -> None:
         Parquet().streams(path, {})
 
 
+def test_a_column_of_fewer_values_than_its_row_group_counts_is_refused(tmp_path: Path) -> None:
+    """A fuzzer's file: by its footer one of the columns has -23 of forty values."""
+    path = tmp_path / "a.parquet"
+    path.write_bytes((Path(__file__).parent / "data" / "fewer_values.parquet").read_bytes())
+    (stream,) = Parquet().streams(path, {}).streams
+    with pytest.raises(InputError, match=r"counts 40 rows, its columns hold 0; copy the complete"):
+        list(stream.read([column.name for column in stream.columns]))
+
+
 @pytest.mark.parametrize("suffix", [".arrow", ".arrows"])
 def test_whole_batches_of_a_file_that_was_cut_short_are_read(
     tmp_path: Path, suffix: str, write_table: WriteTable

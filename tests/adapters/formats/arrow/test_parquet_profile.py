@@ -1,6 +1,7 @@
 """Profiles as Parquet: read back as they were written, and refused in a line."""
 
 import json
+import re
 import sys
 
 import numpy as np
@@ -201,3 +202,18 @@ def test_damage_anywhere_is_a_profile_or_one_clear_line(tmp_path_factory, place,
     except InputError as error:
         refusals.append(str(error))
     assert all("\n" not in line for line in refusals)
+
+
+def test_a_row_group_with_a_column_of_fewer_values_is_refused(tmp_path, monkeypatch):
+    """Before such a group pyarrow ends without a word: half of the road would be lost."""
+    path = tmp_path / "a.parquet"
+    monkeypatch.setattr(parquet_profile, "ROWS", 10)
+    ParquetProfile().write(Profile(0.025, (ProfileTrack.of("left", np.arange(20.0)),)), path)
+    footer = bytearray(path.read_bytes())
+    # Fields 4 and 5 of a column: its compression, and its ten values, which become minus three.
+    counts = [m.end() - 2 for m in re.finditer(rb"\x15.\x16\x14\x16", footer, re.DOTALL)]
+    assert len(counts) == 6
+    footer[counts[3]] = 5
+    path.write_bytes(footer)
+    with pytest.raises(InputError, match=r"a\.parquet: the footer counts 20 rows, its columns ho"):
+        ParquetProfile().read(path)
