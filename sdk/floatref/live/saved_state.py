@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 from zipfile import BadZipFile
 
 import numpy as np
@@ -100,7 +100,20 @@ def _read_arrays(path: Path) -> Arrays:
         stored = np.load(stream, allow_pickle=False)
         if not isinstance(stored, NpzFile):
             raise ValueError("one array alone")
-        return {name: stored[name] for name in stored.files}
+        return _Stored(path, {name: stored[name] for name in stored.files})
+
+
+class _Stored(dict[str, Any]):
+    """The arrays of a file by their names, which no checksum protects as it does what they hold."""
+
+    def __init__(self, path: Path, arrays: Arrays) -> None:
+        """Hold the ``arrays`` of the file at ``path``."""
+        super().__init__(arrays)
+        self._path = path
+
+    def __missing__(self, name: str) -> NoReturn:
+        """Raise InputError for an array that is not there."""
+        raise InputError(f"{self._path}: holds no array {name}; give a whole saved stream")
 
 
 def _describe_order(following: Following) -> dict[str, Any]:

@@ -102,6 +102,20 @@ def test_a_file_that_is_missing_or_of_another_version_is_named(made, tmp_path):
         resume_stream(path)
 
 
+@pytest.mark.parametrize("lost", ["state", "values_0", "times_1", "places"])
+def test_a_file_without_one_of_its_arrays_is_named(made, tmp_path, lost):
+    """A checksum protects what an array holds, and not its name."""
+    path = tmp_path / "saved.npz"
+    with start_stream(made[0].setup, clocks_of(made[0]), "temporal-basic") as stream:
+        stream.save(path)
+    with np.load(path) as stored:
+        arrays = {name: stored[name] for name in stored.files if name != lost}
+    with path.open("wb") as out:
+        np.savez(out, **arrays)
+    with pytest.raises(InputError, match=rf"saved\.npz: .*no array {lost}\)?; give a"):
+        resume_stream(path)
+
+
 def test_a_stream_that_has_ended_cannot_be_saved(made, tmp_path):
     recording, _ = made
     stream = start_stream(recording.setup, clocks_of(recording), "temporal-basic")
