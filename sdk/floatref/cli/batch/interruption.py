@@ -10,7 +10,13 @@ from typing import Any, NoReturn
 
 import click
 
-from floatref.cli.program.interrupts import INTERRUPTED, Interrupt, raised_again, send_again
+from floatref.cli.program.interrupts import (
+    INTERRUPTED,
+    Interrupt,
+    outside_of_loading,
+    raised_again,
+    send_again,
+)
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 ENDING_S = 180.0
@@ -33,7 +39,8 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
         caught = []
     over, errors, came = Event(), os.dup(2), list[int]()
 
-    def stop(number: int, _: object) -> NoReturn:
+    @outside_of_loading
+    def stop(number: int) -> NoReturn:
         _handle(caught, _do_nothing)
         if not came:
             Thread(target=_end_late, args=(over, ending_s, errors), daemon=True).start()

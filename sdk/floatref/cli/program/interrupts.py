@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from threading import current_thread, main_thread
 from time import monotonic, sleep
+from types import FrameType
 from typing import Any, NoReturn
 
 INTERRUPTED = 130
@@ -22,6 +23,10 @@ SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
 )
 """Ctrl-C, the end that a system or a batch queue asks for, and a terminal that was closed."""
+
+LOADING = ("_raw_object_cache_notify", "_raw_object_cache_getbuffer")
+"""Functions of llvmlite that LLVM calls for the code of a kernel. What is raised in them is dropped
+as well, and before it can come again numba has written through an address that is 0."""
 
 
 class Interrupt(KeyboardInterrupt):
@@ -45,8 +50,11 @@ class EndHandler:
         """Remember what to do."""
         self._act, self._number = act, 0
 
-    def __call__(self, number: int, _: object = None) -> None:
+    def __call__(self, number: int, frame: FrameType | None = None) -> None:
         """Act, unless the files of what another handler has ended are being removed."""
+        outside_of_loading(self._end)(number, frame)
+
+    def _end(self, number: int) -> None:
         now_s = monotonic()
         if now_s >= EndHandler._deaf_until_s:
             EndHandler._deaf_until_s = now_s + TIDYING_S
@@ -86,6 +94,20 @@ def raised_again(again: Callable[[], bool]) -> Iterator[None]:
     finally:
         if sys.unraisablehook is hook:
             sys.unraisablehook = before
+
+
+def outside_of_loading(act: Callable[[int], None]) -> Callable[[int, FrameType | None], None]:
+    """Return a handler that calls ``act``, unless LLVM waits for a function of `LOADING`.
+
+    The signal comes again in a moment then.
+    """
+
+    def handle(number: int, frame: FrameType | None) -> None:
+        while frame is not None and frame.f_code.co_name not in LOADING:
+            frame = frame.f_back
+        (act if frame is None else send_again)(number)
+
+    return handle
 
 
 def send_again(number: int) -> None:
