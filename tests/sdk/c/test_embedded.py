@@ -200,6 +200,14 @@ def test_without_the_tools_the_costs_are_skipped_in_a_line(monkeypatch, capsys):
     assert line.startswith("costs on a small core: skipped, arm-none-eabi-gcc")
 
 
+def test_a_stage_that_is_not_there_is_named_before_anything_is_built(monkeypatch, capsys):
+    monkeypatch.setattr(costs.board, "missing_tools", list)
+    monkeypatch.delattr(costs.board, "Board")
+    assert costs.main(["seam", "seem"]) == 2
+    (line,) = capsys.readouterr().out.splitlines()
+    assert line.startswith("seem: no such stage; there are filter_high_pass_1, ")
+
+
 @pytest.mark.parametrize(
     ("name", "operands", "taken", "expected"),
     [
