@@ -715,7 +715,7 @@ typedef struct fr_span {
 
 /* A height or an accelerometer: gaps that a line does not bridge well (decision 0004); identical
  * samples while the vehicle goes on and the accelerometer beside it moves; a height out of its
- * range; spikes of one sample. Constant memory. */
+ * range; spikes of one sample. Constant memory. Times and holds have fewer than 1e15 samples. */
 typedef struct fr_screening_config {
     double rate_hz;          /* samples per second; no default */
     double metres_per_count; /* of the encoder; no default */
