@@ -149,6 +149,10 @@ def main(chosen: Sequence[str]) -> int:
     if missing:
         print(f"costs on a small core: skipped, {', '.join(missing)} is not installed")
         return 0
+    unknown = [name for name in chosen if name not in board.stages()]
+    if unknown:
+        print(f"{', '.join(unknown)}: no such stage; there are {', '.join(board.stages())}")
+        return 2
     names = list(chosen) or board.stages()
     plain = [name for name in names if name not in SMOOTHERS]
     smoothers = [name for name in names if name in SMOOTHERS]

@@ -34,7 +34,7 @@ size_t try_drive(void *object, size_t bytes, length run, push_of push, end_of en
 #define DRIVE(kind, config, run, put, from)                                                \
     do {                                                                                   \
         fr_##kind *object = NULL;                                                          \
-            if (fr_##kind##_init(large, sizeof large, &(config), &object) != FR_OK)            \
+        if (fr_##kind##_init(large, sizeof large, &(config), &object) != FR_OK)            \
             board_put("not possible\n");                                                   \
         else                                                                               \
             put(try_drive(object, fr_##kind##_size(&(config)), run, push_##kind, end_##kind), \

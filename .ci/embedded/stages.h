@@ -53,14 +53,14 @@ void try_profile(push_of push, void *config, size_t points);
         if (fr_##kind##_init(memory, sizeof memory, &(config), &object) != FR_OK)          \
             board_put("not possible\n");                                                   \
         else                                                                               \
-            try_pieces(object, fr_##kind##_size(&(config)), push);                                \
+            try_pieces(object, fr_##kind##_size(&(config)), push);                         \
     } while (0)
 
-/* A push of one input and one output as a push_of. */
-#define PUSH(kind, ...)                                                                    \
-    static fr_status push_##kind(void *object, size_t count, size_t *written)              \
+/* The function `fr_call` of one output as a push_of: of an object or of settings, and of inputs. */
+#define PUSH(call, type, ...)                                                              \
+    static fr_status call(void *object, size_t count, size_t *written)                     \
     {                                                                                      \
-        return fr_##kind##_push((fr_##kind *)object, __VA_ARGS__, count, out, POINTS, written); \
+        return fr_##call((type *)object, __VA_ARGS__, count, out, POINTS, written);        \
     }
 
 #endif

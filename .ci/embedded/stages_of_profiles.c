@@ -9,17 +9,13 @@ enum { PROFILE = 1000 };
 
 static uint8_t causes_of_points[PROFILE];
 
-static fr_status push_high_pass(void *config, size_t count, size_t *written)
-{
-    return fr_high_pass_profile((fr_high_pass_profile_config *)config, out, count, out, POINTS,
-                                written);
-}
+PUSH(high_pass_profile, fr_high_pass_profile_config, out)
 
 void stage_high_pass_profile(void)
 {
     fr_high_pass_profile_config config = fr_high_pass_profile_defaults();
     config.interval_m = INTERVAL_M;
-    try_profile(push_high_pass, &config, PROFILE);
+    try_profile(high_pass_profile, &config, PROFILE);
 }
 
 /* In the last fifth of the points, with 20 m in front of it. */

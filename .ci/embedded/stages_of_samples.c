@@ -4,14 +4,20 @@
  */
 #include "stages.h"
 
-PUSH(filter, now.force)
-PUSH(varying, now.force, now.cutoff)
-PUSH(integral, now.force)
-PUSH(travel_speed, now.counts)
-PUSH(projection, now.counts, now.force)
-PUSH(local_suppression, now.force, now.speed)
-PUSH(matched_high_pass, now.force, now.height, now.cutoff)
-PUSH(iri, now.height)
+PUSH(filter_push, fr_filter, now.force)
+PUSH(varying_push, fr_varying, now.force, now.cutoff)
+PUSH(integral_push, fr_integral, now.force)
+PUSH(integral_push_steps, fr_integral, now.force, now.step)
+PUSH(integral_push_reflecting, fr_integral, now.force, now.height, now.cutoff, now.step)
+PUSH(travel_speed_push, fr_travel_speed, now.counts)
+PUSH(cut_off_frequency, fr_cut_off_config, now.speed)
+PUSH(cut_off_wave_number, fr_cut_off_config, INTERVAL_M, now.speed)
+PUSH(timer_distortion_steps, fr_timer_distortion_config, now.step)
+PUSH(local_suppression_push, fr_local_suppression, now.force, now.speed)
+PUSH(matched_high_pass_push, fr_matched_high_pass, now.force, now.height, now.cutoff)
+PUSH(projection_push, fr_projection, now.counts, now.force)
+PUSH(time_step_push, fr_time_step, now.counts)
+PUSH(iri_push, fr_iri, now.height)
 
 static void try_filter(int32_t order, int32_t passes)
 {
@@ -20,7 +26,7 @@ static void try_filter(int32_t order, int32_t passes)
     config.cutoff = 0.45;
     config.order = order;
     config.passes = passes;
-    RUN(filter, config, push_filter);
+    RUN(filter, config, filter_push);
 }
 
 void stage_filter_high_pass_1(void)
@@ -44,7 +50,7 @@ static void try_varying(int32_t sections, int32_t tangent)
     config.step = 1.0 / RATE_HZ;
     config.sections = sections;
     config.tangent = tangent;
-    RUN(varying, config, push_varying);
+    RUN(varying, config, varying_push);
 }
 
 void stage_varying_1(void)
@@ -76,29 +82,17 @@ static void try_integral(push_of push)
 
 void stage_integral(void)
 {
-    try_integral(push_integral);
-}
-
-static fr_status push_integral_steps(void *object, size_t count, size_t *written)
-{
-    return fr_integral_push_steps((fr_integral *)object, now.force, now.step, count, out, POINTS,
-                                  written);
+    try_integral(integral_push);
 }
 
 void stage_integral_steps(void)
 {
-    try_integral(push_integral_steps);
-}
-
-static fr_status push_integral_reflecting(void *object, size_t count, size_t *written)
-{
-    return fr_integral_push_reflecting((fr_integral *)object, now.force, now.height, now.cutoff,
-                                       now.step, count, out, POINTS, written);
+    try_integral(integral_push_steps);
 }
 
 void stage_integral_reflecting(void)
 {
-    try_integral(push_integral_reflecting);
+    try_integral(integral_push_reflecting);
 }
 
 void stage_travel_speed(void)
@@ -106,50 +100,33 @@ void stage_travel_speed(void)
     fr_travel_speed_config config = fr_travel_speed_defaults();
     config.rate_hz = RATE_HZ;
     config.metres_per_count = COUNT_M;
-    RUN(travel_speed, config, push_travel_speed);
-}
-
-static fr_status push_cut_off(void *object, size_t count, size_t *written)
-{
-    return fr_cut_off_frequency((fr_cut_off_config *)object, now.speed, count, out, POINTS, written);
+    RUN(travel_speed, config, travel_speed_push);
 }
 
 void stage_cut_off_frequency(void)
 {
     fr_cut_off_config config = fr_cut_off_defaults();
-    try_pieces(&config, 0u, push_cut_off);
-}
-
-static fr_status push_wave_number(void *object, size_t count, size_t *written)
-{
-    return fr_cut_off_wave_number((fr_cut_off_config *)object, INTERVAL_M, now.speed, count, out,
-                                  POINTS, written);
+    try_pieces(&config, 0u, cut_off_frequency);
 }
 
 void stage_cut_off_wave_number(void)
 {
     fr_cut_off_config config = fr_cut_off_defaults();
-    try_pieces(&config, 0u, push_wave_number);
-}
-
-static fr_status push_distortion(void *object, size_t count, size_t *written)
-{
-    return fr_timer_distortion_steps((fr_timer_distortion_config *)object, now.step, count, out,
-                                     POINTS, written);
+    try_pieces(&config, 0u, cut_off_wave_number);
 }
 
 void stage_timer_distortion_steps(void)
 {
     fr_timer_distortion_config config = fr_timer_distortion_defaults();
     config.interval_m = INTERVAL_M;
-    try_pieces(&config, 0u, push_distortion);
+    try_pieces(&config, 0u, timer_distortion_steps);
 }
 
 void stage_local_suppression(void)
 {
     fr_local_suppression_config config = fr_local_suppression_defaults();
     config.rate_hz = RATE_HZ;
-    RUN(local_suppression, config, push_local_suppression);
+    RUN(local_suppression, config, local_suppression_push);
 }
 
 static void try_matched(int32_t tangent)
@@ -157,7 +134,7 @@ static void try_matched(int32_t tangent)
     fr_matched_high_pass_config config = fr_matched_high_pass_defaults();
     config.rate_hz = RATE_HZ;
     config.tangent = tangent;
-    RUN(matched_high_pass, config, push_matched_high_pass);
+    RUN(matched_high_pass, config, matched_high_pass_push);
 }
 
 void stage_matched_high_pass(void)
@@ -170,7 +147,7 @@ void stage_matched_high_pass_short(void)
     try_matched(FR_TANGENT_SHORT);
 }
 
-static fr_status push_projection_timed(void *object, size_t count, size_t *written)
+static fr_status projection_push_timed(void *object, size_t count, size_t *written)
 {
     return fr_projection_push_timed((fr_projection *)object, now.counts, now.force, count, out,
                                     beside, POINTS, written);
@@ -187,24 +164,19 @@ static void try_projection(double rate_hz, push_of push)
 
 void stage_projection(void)
 {
-    try_projection(0.0, push_projection);
+    try_projection(0.0, projection_push);
 }
 
 void stage_projection_timed(void)
 {
-    try_projection(RATE_HZ, push_projection_timed);
-}
-
-static fr_status push_time_step(void *object, size_t count, size_t *written)
-{
-    return fr_time_step_push((fr_time_step *)object, now.counts, count, out, POINTS, written);
+    try_projection(RATE_HZ, projection_push_timed);
 }
 
 void stage_time_step(void)
 {
     fr_time_step_config config = fr_time_step_defaults();
     config.seconds_per_tick = 1e-6;
-    RUN(time_step, config, push_time_step);
+    RUN(time_step, config, time_step_push);
 }
 
 /* Its samples are points. */
@@ -212,5 +184,5 @@ void stage_iri(void)
 {
     fr_iri_config config = fr_iri_defaults();
     config.interval_m = INTERVAL_M;
-    RUN(iri, config, push_iri);
+    RUN(iri, config, iri_push);
 }

@@ -110,7 +110,7 @@ static fr_status level_known(struct waiting *w, int paths)
 /* The stage: samples wait for levelling, which has to see all wheel paths. */
 fr_status stage_take(struct path *path, fr_real *force, fr_real *height, const int64_t *counts, size_t n)
 {
-    store(path, force, height, counts, n);
+    TRY(store(path, force, height, counts, n));
     return level_known(path->vehicle->waiting, path->vehicle->paths);
 }
 

@@ -31,10 +31,12 @@ fr_status add_waiting(struct path *path)
     return all ? FR_OK : FR_TOO_SMALL;
 }
 
-void store(struct path *path, const fr_real *force, const fr_real *height, const int64_t *counts,
-           size_t count)
+fr_status store(struct path *path, const fr_real *force, const fr_real *height, const int64_t *counts,
+                size_t count)
 {
     struct waiting *w = path->vehicle->waiting;
+    if (w->taken == 0 && count > 0 && counts[0] == FR_NO_COUNT)
+        return FR_BAD_SAMPLE;
     fr_real *a = w->force[path->number] + w->taken, *h = w->height[path->number] + w->taken;
     for (size_t k = 0; k < count; k++) {
         /* The smoother begins at the first height, which has to be one. */
@@ -44,6 +46,7 @@ void store(struct path *path, const fr_real *force, const fr_real *height, const
     }
     if (path->number + 1 == path->vehicle->paths)
         store_counts(w, counts, count);
+    return FR_OK;
 }
 
 void interleave(const struct waiting *w, size_t paths, size_t count, fr_real *force, fr_real *height)

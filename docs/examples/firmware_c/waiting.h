@@ -34,9 +34,10 @@ struct waiting {
 fr_status begin_waiting(struct vehicle *vehicle, double rate_hz);
 fr_status add_waiting(struct path *path);
 
-/* Store samples of a path behind those that are taken, NaN where a sensor measures nothing. */
-void store(struct path *path, const fr_real *force, const fr_real *height, const int64_t *counts,
-           size_t count);
+/* Store samples of a path behind those that are taken, NaN where a sensor measures nothing.
+   FR_BAD_SAMPLE where the first count of the run is missing: no way leads from there. */
+fr_status store(struct path *path, const fr_real *force, const fr_real *height, const int64_t *counts,
+                size_t count);
 
 /* Counts of the same samples, behind those of all paths. Levelling and the pitch of the model take the
    way of the vehicle: a leap would be a brake to them. */

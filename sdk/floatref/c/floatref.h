@@ -486,7 +486,8 @@ enum {
 typedef struct fr_road_prior_config {
     double rate_hz;          /* samples per second, 10 to 1e7; no default */
     double metres_per_count; /* of the encoder; no default */
-    double interval_m;       /* between points, at most 4e8 in a lag at fastest_mps; no default */
+    double interval_m;       /* between points, at most 1e6 m; at most 4e8 points and 1e9 m in a lag at
+                                fastest_mps; no default */
     double gravity_mps2;     /* taken from every acceleration: 9.80665 for a specific force, within
                                 1e6 of 0; 0 */
     double node_rate_hz;     /* nodes per second, 10 to 1000, of the filter; 500 */
@@ -714,7 +715,7 @@ typedef struct fr_span {
 
 /* A height or an accelerometer: gaps that a line does not bridge well (decision 0004); identical
  * samples while the vehicle goes on and the accelerometer beside it moves; a height out of its
- * range; spikes of one sample. Constant memory. */
+ * range; spikes of one sample. Constant memory. Times and holds have fewer than 1e15 samples. */
 typedef struct fr_screening_config {
     double rate_hz;          /* samples per second; no default */
     double metres_per_count; /* of the encoder; no default */
@@ -988,7 +989,8 @@ FR_API fr_status fr_kalman_left_out(const fr_kalman *kalman, int64_t count[4]);
 typedef struct fr_level_fit_config {
     double step_s;        /* from bin to bin, 0.002 to 0.06; 0.01 */
     double front_m;       /* front axle ahead of the laser, within 100 of 0; no default */
-    double rear_m;        /* rear axle ahead of the laser, 0.1 to 100 less than that; no default */
+    double rear_m;        /* rear axle ahead of the laser, 0.1 to 100 less than that, and within 100 of
+                           * 0; no default */
     double lever_m;       /* laser ahead of its accelerometer, within 100 of 0; 0 */
     double wavelength_m;  /* cut-off of the high-pass that the profile passes, 1 to 1000; 105.91 */
     /* Densities and 1-sigmas are 1e-12 to 1e6. */

@@ -192,3 +192,30 @@ def test_what_is_reserved_is_zero(double):
         assert size(double, kind, **{name: 0}) > 0
         for value in (1, -1):
             assert size(double, kind, **{name: value}) == 0, (kind, name)
+
+
+@pytest.mark.parametrize(
+    ("longest", "settings"),
+    [
+        ("interval_m", {"interval_m": 1e6, "metres_per_count": 1e3}),
+        ("fastest_mps", {"interval_m": 1e3, "lag_s": 1e3, "fastest_mps": 1e6}),
+    ],
+)
+def test_the_marks_of_a_road_prior_can_be_counted(double, longest, settings):
+    assert size(double, "road_prior", **settings) > 0
+    for value in (np.nextafter(settings[longest], np.inf), 1e19, 1e25):
+        scaled = {**settings, longest: value}
+        if longest == "interval_m":
+            scaled["metres_per_count"] = value / 1e3
+        assert size(double, "road_prior", **scaled) == 0, value
+
+
+POINT_KINDS = ("projection", "adaptive", "causes", "road_prior", "kalman")
+
+
+@pytest.mark.parametrize("kind", POINT_KINDS)
+def test_the_place_of_every_point_is_a_number(double, kind):
+    names = [name for name, _ in settings_of(double, kind)]
+    (count_m,) = (name for name in names if name.endswith("metres_per_count"))
+    longest = 1.7e308
+    assert size(double, kind, **{"interval_m": longest, count_m: longest / 1e3}) == 0

@@ -13,14 +13,16 @@
 
 #define TIE 1e-6
 #define MOST_POINTS 1e7
-/* Beyond these an index or a count would not fit into 63 bits. */
+/* Beyond these an index or a count would not fit into 63 bits, or a distance into a number. */
 #define FINEST 1e3
 #define COARSEST 1e9
+#define MOST_INDEX 1e19
 
 int fr_points_are_possible(double interval_m, double metres_per_count)
 {
     return fr_above_zero(interval_m) && fr_above_zero(metres_per_count) &&
-           metres_per_count / interval_m <= FINEST && interval_m / metres_per_count <= COARSEST;
+           metres_per_count / interval_m <= FINEST && interval_m / metres_per_count <= COARSEST &&
+           fr_finite(MOST_INDEX * interval_m);
 }
 
 void fr_points_set(fr_points *points, double interval_m, double metres_per_count)

@@ -14,6 +14,9 @@
 #define LEAST_MEMORY_M 32.0
 #define MOST_LAG_S 3600.0
 #define MOST_POINTS_OF_LAG 4e8
+/* Marks are so many metres apart, and their number has to fit into 32 bits. */
+#define MOST_INTERVAL_M 1e6
+#define MOST_LAG_M 1e9
 /* The SDK's segments, but for the power of two in samples. */
 #define SEGMENT_S 4.0
 /* A vehicle that brings no point for so long is stationary; so many stops of a section compose. */
@@ -80,6 +83,7 @@ static int stream_is_possible(const fr_road_prior_config *c)
            fr_points_are_possible(c->interval_m, c->metres_per_count) &&
            c->node_rate_hz >= LEAST_RATE_HZ && c->node_rate_hz <= MOST_NODES_HZ &&
            fr_above_zero(c->lag_s) && c->lag_s <= MOST_LAG_S && fr_above_zero(c->fastest_mps) &&
+           c->interval_m <= MOST_INTERVAL_M && c->lag_s * c->fastest_mps <= MOST_LAG_M &&
            c->lag_s * c->fastest_mps / c->interval_m <= MOST_POINTS_OF_LAG &&
            not_below_zero(c->tolerance_m) && c->wavelength_m >= 1e-3 &&
            c->wavelength_m <= LARGEST_VALUE &&
