@@ -43,7 +43,8 @@ def remove_scratch(folder: Path) -> None:
 @atexit.register
 def remove_left() -> None:
     """Remove what a signal has left; folders of a process that has made this one are not ours."""
-    for folder in [each for each in _MADE if owner_mark() in each.name]:
+    # A copy, made at once: threads that Python does not wait for may still make folders.
+    for folder in [each for each in tuple(_MADE) if owner_mark() in each.name]:
         remove_scratch(folder)
 
 

@@ -39,6 +39,23 @@ print(folder.exists())
 )
 
 
+IN_A_THREAD = (
+    BEGIN
+    + """
+mark = scratch.owner_mark
+
+def mark_later():
+    scratch.owner_mark = mark
+    scratch.remove_scratch(scratch.make_scratch("of a thread"))
+    scratch._MADE.add(folder.with_name("of another"))
+    return mark()
+
+scratch.owner_mark = mark_later
+"""
+)
+"""A thread makes folders while those that are left are looked for."""
+
+
 def run(script: str, temporary: Path) -> list[str]:
     """Return the lines that ``script`` prints."""
     environment = {"TMPDIR": str(temporary)}
@@ -48,7 +65,7 @@ def run(script: str, temporary: Path) -> list[str]:
     return done.stdout.splitlines()
 
 
-@pytest.mark.parametrize("script", [BETWEEN, IN_REMOVAL])
+@pytest.mark.parametrize("script", [BETWEEN, IN_REMOVAL, IN_A_THREAD])
 def test_nothing_is_left_wherever_a_signal_comes(tmp_path: Path, script: str) -> None:
     (name,) = run(script, tmp_path)
     assert Path(name).parent == tmp_path

@@ -43,8 +43,11 @@ BYTES_PER_POINT = 512
 """What splines through a surface take: some thirty numbers per point, and as many again."""
 BYTES_PER_BYTE = 8
 """What a surface takes per byte of its file: at most a double per digit."""
-SLOWEST = 1e6
-"""Bytes per s: a file is given the time that it takes at this rate, beyond what each has."""
+MOST_BYTES = 2 << 30
+"""Largest file that is read: it takes as much memory, and one of zeros takes no room on a disk."""
+SLOWEST, SLOWEST_POINTS = 1e6, 1e4
+"""Bytes, and points of the road, per s: a file is given the time that they take at these rates,
+beyond what each has. A busy machine is slow, and cross sections may be closer than points."""
 
 
 def crg_road(
@@ -57,9 +60,9 @@ def crg_road(
 ) -> Road:
     """Make a road, usable up to ``length_m``, of an OpenCRG file, under a line if one is given.
 
-    Raises InputError that names the file if it cannot be read, if pycrg is missing, and for a
-    surface of fewer than four cross sections, one with a hole under a wheel path, or one too
-    narrow for a wheel path.
+    Raises InputError that names the file if it cannot be read, has more than `MOST_BYTES`, or if
+    pycrg is missing, and for a surface of fewer than four cross sections, one with a hole under a
+    wheel path, or one too narrow for a wheel path.
     """
     sides = lateral_positions(tracks)
     points = points_of(length_m, spacing_m, start_m)
@@ -69,20 +72,26 @@ def crg_road(
         (path, start_m + spacing_m * np.arange(points, dtype=np.float64), line, dict(sides)),
         f"{path}: not a whole OpenCRG file (the library that reads it broke down); "
         "copy the complete file again",
-        LONGEST_SILENCE_S + size / SLOWEST,
+        LONGEST_SILENCE_S + size / SLOWEST + points / SLOWEST_POINTS,
         MOST_MEMORY + BYTES_PER_POINT * points + BYTES_PER_BYTE * size,
     )
     return with_level_start(Road(start_m, spacing_m, elevation, sides))
 
 
 def _check(path: Path) -> int:
-    """Return the bytes of a file that pycrg can be given; InputError if it or pycrg is missing."""
+    """Return the bytes of a file that pycrg can read; InputError if it cannot, or is missing."""
     check_file(path)
+    size = path.stat().st_size
+    if size > MOST_BYTES:
+        raise InputError(
+            f"{path}: has {size / 1e9:.1f} GB, and surfaces of up to {MOST_BYTES / 1e9:.1f} GB are "
+            "read; cut it into shorter ones"
+        )
     try:
         import pycrg as pycrg
     except ImportError as error:
         raise missing_extra(f"{path}: reading OpenCRG needs pycrg", "conformance") from error
-    return path.stat().st_size
+    return size
 
 
 def read_lines(

@@ -4,16 +4,14 @@ Each waits at its standard input, into which nothing is ever written: on every s
 with the process that holds the other end, after a SIGKILL too.
 """
 
-import os
 import subprocess
 import sys
 from collections.abc import Sequence
-from threading import Lock, Thread
+from threading import Lock
 
 from floatref.errors import InputError
+from floatref.files.child_process import end_with_input
 
-GONE = 1
-"""Exit code of a process whose parent has ended."""
 GRACE_S = 10.0
 """Longest time in s until a process has ended that was asked to; then it is killed."""
 PROGRAM = "from floatref.cli.warm.children import run_as_child; run_as_child()"
@@ -77,10 +75,5 @@ def run_as_child() -> None:
     """Run the `floatref` command in this process, and end it as soon as its parent has ended."""
     from floatref.cli.program.starting import start
 
-    Thread(target=_wait_for_parent, args=(sys.stdin.fileno(),), daemon=True).start()
+    end_with_input()
     start()
-
-
-def _wait_for_parent(parent: int) -> None:
-    os.read(parent, 1)
-    os._exit(GONE)

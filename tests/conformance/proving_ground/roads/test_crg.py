@@ -10,6 +10,7 @@ import pytest
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
+from floatref_conformance.proving_ground.roads import crg
 from floatref_conformance.proving_ground.roads.crg import crg_road
 from floatref_conformance.proving_ground.roads.road import FULL_FROM_M
 from floatref_conformance.proving_ground.roads.wander import Line
@@ -156,3 +157,31 @@ def test_a_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setitem(sys.modules, "pycrg", None)
     with pytest.raises(InputError, match=r"a\.crg: .* pip install -e \"\.\[conformance\]\""):
         crg_road(path, 60.0)
+
+
+def test_a_file_of_more_bytes_than_memory_should_hold_is_refused_at_once(tmp_path: Path) -> None:
+    """Zeros behind a surface cost no disk, and pycrg takes memory for each."""
+    path = write(tmp_path / "a.crg", hills())
+    with path.open("r+b") as file:
+        file.truncate(3 << 30)
+    with pytest.raises(InputError, match=r"a\.crg: has 3\.2 GB, .*; cut it into shorter ones"):
+        crg_road(path, 60.0)
+
+
+def test_a_longer_road_is_given_more_time_and_memory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, limits = write(tmp_path / "a.crg", hills()), list[tuple[float, int]]()
+
+    def read(
+        reader: str, arguments: tuple[Path, FloatArray, None, dict[str, float]], broken: str,
+        silence_s: float, most_memory: int,
+    ) -> list[dict[str, FloatArray]]:  # fmt: skip
+        limits.append((silence_s, most_memory))
+        return [dict.fromkeys(arguments[3], 0.0 * arguments[1])]
+
+    monkeypatch.setattr(crg, "read_apart", read)
+    points = [crg_road(path, length_m).points for length_m in (60.0, 10_060.0)]
+    (short_s, short), (long_s, long) = limits
+    assert long_s - short_s > 0.99e-4 * (points[1] - points[0])
+    assert long - short >= 512 * (points[1] - points[0])
