@@ -57,13 +57,17 @@ class UniformClock:
 
     def times(self, count: int, first: int = 0, step: int = 1) -> FloatArray:
         """Return the times in s of ``count`` samples, every ``step``-th from ``first`` on."""
-        # In place: channels of millions of samples ask for their times.
+        # In place, and nothing for a 1 or a 0: channels of millions of samples ask for their times.
         times = np.arange(count, dtype=np.float64)
-        times *= step
-        times += first
-        times *= self.rate.denominator
+        if step != 1:
+            times *= step
+        if first != 0:
+            times += first
+        if self.rate.denominator != 1:
+            times *= self.rate.denominator
         times /= self.rate.numerator
-        times += self.start_s
+        if self.start_s != 0.0:
+            times += self.start_s
         return times
 
 
