@@ -4,7 +4,7 @@ A directory holds one JSON file and raw little-endian float64 files beside it. S
 on reading and on writing; a directory is written completely or not at all.
 """
 
-from floatref.files.child_process import read_apart
+from floatref.files.apart.child_process import read_apart
 from floatref.files.fingerprint import fingerprint, fingerprint_native
 from floatref.files.mapped.mapped_files import map_bytes
 from floatref.files.profile_csv import write_profile_csv

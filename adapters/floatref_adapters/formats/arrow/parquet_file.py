@@ -27,7 +27,7 @@ def count_rows(footer: Any) -> int:
 def all_batches(file: Any, rows: int, columns: Sequence[str]) -> Iterator[Any]:
     """Yield ``columns`` of an opened file, up to ``rows`` rows at a time.
 
-    pyarrow ends without a word where a column holds fewer values than its row group counts; this
+    pyarrow ends silently where a column holds fewer values than its row group counts; this
     raises InputError behind them.
     """
     expected, found = count_rows(file.metadata), 0

@@ -17,7 +17,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from floatref.errors import InputError, missing_extra
-from floatref.files.child_process import LONGEST_SILENCE_S, MOST_MEMORY, read_apart
+from floatref.files.apart.child_process import LONGEST_SILENCE_S, MOST_MEMORY, read_apart
 from floatref.files.sources import check_file, name_errors
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref_conformance.proving_ground.roads.road import (

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from threading import Lock
 
 from floatref.errors import InputError
-from floatref.files.child_process import end_with_input
+from floatref.files.apart.served_reading import end_with_input
 
 GRACE_S = 10.0
 """Longest time in s until a process has ended that was asked to; then it is killed."""

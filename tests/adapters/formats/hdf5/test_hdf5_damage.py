@@ -12,7 +12,7 @@ from tests.adapters.damage import check_damaged
 from tests.adapters.formats.hdf5.conftest import rows
 
 from floatref import Channel, InputError, Recording, UniformClock
-from floatref.files import child_process
+from floatref.files.apart import child_process
 from floatref_adapters.formats.hdf5.adapter import Hdf5
 from floatref_adapters.formats.hdf5.dataset_rows import native_file
 from floatref_adapters.testing.hdf5 import write_hdf5

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref import InputError, read_apart
-from floatref.files import child_process
+from floatref.files.apart import child_process
 
 BROKEN = "run.xyz: no sound file"
 READING = f"""
@@ -39,7 +39,7 @@ for answer in read_apart("{__name__}:wait_for", (0.0, 1.0), "broken"):
 @pytest.fixture(autouse=True, scope="module")
 def importable() -> Iterator[None]:
     """Let other processes import this module, of which they run functions."""
-    root = str(Path(__file__).parents[3])
+    root = str(Path(__file__).parents[4])
     sys.path.insert(0, root)
     yield
     sys.path.remove(root)
