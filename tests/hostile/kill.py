@@ -163,7 +163,7 @@ def _after(
     if any(trace in place.printed for trace in TRACES):
         yield f"traceback: {place.printed[-2000:]}"
     if code not in (work.code, -sent, INTERRUPTED):
-        yield f"exit code {code}"
+        yield f"exit code {code}: {place.printed[-300:]}"
     if code == INTERRUPTED and "Interrupted" not in place.printed:
         yield "no line"
     if not _ends(process, place):

@@ -37,7 +37,7 @@ def open_bytes(path: Path, links: bool = True, grows: bool = False) -> Iterator[
     with _refusals(path):
         # Opening a device can do something to it already.
         _check_kind(path, os.stat(path).st_mode)
-        raw = _open_file(path, 0 if links else NO_LINK, grows)
+        raw = _Measured(path, 0 if links else NO_LINK, grows)
         stream: BufferedReader = BufferedReader(raw, BUFFER)
     with stream:
         yield stream
@@ -108,8 +108,12 @@ class _Measured(io.FileIO):
     What goes wrong while it is read is an InputError that names it.
     """
 
-    def __init__(self, handle: int, path: Path, grows: bool) -> None:
-        super().__init__(handle, "rb")
+    def __init__(self, path: Path, more_flags: int, grows: bool) -> None:
+        # The file has its handle from the first moment: whoever closed it for a file that a signal
+        # has interrupted here might close it a second time, or that of another file.
+        super().__init__(path, "rb", opener=lambda *_: _open_checked(path, more_flags))
+        # No library opens it anew by its name.
+        self.name = handle = self.fileno()
         self._path = path
         self._size = None if grows else os.fstat(handle).st_size
 
@@ -131,15 +135,16 @@ class _Measured(io.FileIO):
         return max(size - self.tell(), 0)
 
 
-def _open_file(path: Path, more_flags: int, grows: bool) -> _Measured:
+def _open_checked(path: Path, more_flags: int) -> int:
+    """Return the handle of what is opened at ``path``; InputError unless it is a file."""
     handle = os.open(path, FLAGS | more_flags)
     try:
         # Another thing may have taken the place of the file since it was inspected.
         _check_kind(path, os.fstat(handle).st_mode)
-        return _Measured(handle, path, grows)
     except BaseException:
         os.close(handle)
         raise
+    return handle
 
 
 @contextmanager
