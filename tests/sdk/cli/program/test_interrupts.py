@@ -116,6 +116,12 @@ def test_a_command_whose_loading_is_interrupted_says_what_is_missing(tmp_path: P
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "Interrupted: no table\n")
 
 
+def _wait() -> None:
+    """Wait a minute, in pieces: one call would not end by a signal just before it."""
+    for _ in range(1200):
+        time.sleep(0.05)
+
+
 class Referred:
     """An object that a weak reference waits for."""
 
@@ -140,14 +146,14 @@ def _in_a_callback() -> None:
     gc.callbacks.append(collect)
     try:
         gc.collect()
-        time.sleep(60.0)
+        _wait()
     finally:
         gc.callbacks.remove(collect)
 
 
 def _in_a_finalizer() -> None:
     Lasting()
-    time.sleep(60.0)
+    _wait()
 
 
 def _for_a_weak_reference() -> None:
@@ -155,7 +161,7 @@ def _for_a_weak_reference() -> None:
     reference = weakref.ref(referred, lambda _: (signal.raise_signal(signal.SIGTERM), None)[1])
     del referred
     assert reference() is None
-    time.sleep(60.0)
+    _wait()
 
 
 @contextmanager
@@ -208,7 +214,7 @@ class Closing:
 def _work_in_batch(heard: list[str]) -> None:
     with raising_interrupt(), interruptible(lambda: heard.append("once") or "Interrupted"):
         Closing()
-        time.sleep(60.0)
+        _wait()
 
 
 def test_a_signal_of_the_outer_handler_comes_again_in_batch() -> None:
