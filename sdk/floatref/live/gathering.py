@@ -6,6 +6,7 @@ one another into memory that is there; all of them are handed over when a channe
 next tick. Nothing is decided between two ticks, so that no point comes later.
 """
 
+from collections import deque
 from collections.abc import Mapping
 from math import ceil, floor
 from typing import Any
@@ -130,6 +131,10 @@ class Gathering:
     def hand_over(self) -> dict[ChannelId, Piece]:
         """Return the samples of every channel that has any, and begin anew."""
         return {name: room.empty() for name, room in self._rooms.items() if room.size}
+
+    def append_whole(self, queue: deque[Mapping[ChannelId, Piece] | None]) -> None:
+        """Append to ``queue`` what `hand_over` returns; no signal of a command comes between."""
+        queue.append(self.hand_over())
 
 
 def _join(pieces: list[Piece]) -> Piece:

@@ -28,8 +28,7 @@ Pieces = Mapping[ChannelId, Piece]
 class LiveStream(AbstractContextManager["LiveStream"]):
     """Takes samples and gives out points; `start_stream` makes one.
 
-    One thread pushes and reads; the work is done in another one. `finish` or `close` ends it, and
-    so does the end of a ``with`` statement. It is ``torn`` where a signal has cost it samples.
+    One thread pushes and reads; another works, until `finish`, `close` or the end of a ``with``.
     """
 
     def __init__(self, following: Following, entrance: Entrance) -> None:
@@ -40,7 +39,7 @@ class LiveStream(AbstractContextManager["LiveStream"]):
         self._changed = Condition()
         self._queue: deque[Pieces | None] = deque()
         self._waiting = 0
-        self._busy = self._stopped = self._finished = self.torn = False
+        self._busy = self._stopped = self._finished = False
         self._error: BaseException | None = None
         self._points: list[LivePoints] = []
         self._thread = Thread(target=self._work, name="floatref-live", daemon=True)
@@ -87,9 +86,13 @@ class LiveStream(AbstractContextManager["LiveStream"]):
         Raises InputError for samples that cannot be used, and then takes no sample of the push;
         StageError after `finish` or `close`; and any error of the thread.
         """
+        if self.take_whole(samples):
+            self.hand_over()
+
+    def take_whole(self, samples: Mapping[Any, Samples]) -> bool:
+        """Take ``samples`` as `push` does, without a wait; return whether `hand_over` is due."""
         self._check_open("push")
-        if self._gathering.take(samples, self._entrance):
-            self._hand_over()
+        return self._gathering.take(samples, self._entrance)
 
     def ready(self, wait: bool = False) -> list[LivePoints]:
         """Return the points made since the last call, in order; with ``wait``, of all pushes.
@@ -103,7 +106,7 @@ class LiveStream(AbstractContextManager["LiveStream"]):
     def peek(self, wait: bool = False) -> list[LivePoints]:
         """Return all that is there, events without points too; it stays there until `forget`."""
         if wait and self.is_open:
-            self._hand_over()
+            self.hand_over()
         with self._changed:
             if wait:
                 self._changed.wait_for(self._is_idle)
@@ -121,7 +124,7 @@ class LiveStream(AbstractContextManager["LiveStream"]):
         refused every window.
         """
         self._check_open("finish")
-        self._hand_over()
+        self.hand_over()
         with self._changed:
             self._queue.append(None)
             self._finished = True
@@ -138,7 +141,7 @@ class LiveStream(AbstractContextManager["LiveStream"]):
         Raises StageError after the end; any error of the thread; InputError if it cannot write.
         """
         self._check_open("save")
-        self._hand_over()
+        self.hand_over()
         with self._changed:
             self._changed.wait_for(self._is_idle)
             self._raise_error()
@@ -163,22 +166,19 @@ class LiveStream(AbstractContextManager["LiveStream"]):
         """Close it."""
         self.close()
 
-    def _hand_over(self) -> None:
-        """Give the thread what was pushed since the last time."""
+    def hand_over(self) -> None:
+        """Give the thread what was pushed since the last time; wait where it has too much."""
         count = self._gathering.size
         if not count:
             return
         with self._changed:
             if self._waiting and self._waiting + count > WAITING:
                 # Woken for each piece that leaves, it would share the interpreter all the time.
-                half = WAITING // 2
-                self._changed.wait_for(lambda: self._waiting <= half or self._error is not None)
+                self._changed.wait_for(lambda: self._waiting <= WAITING // 2 or self._error)
             self._raise_error()
-            self.torn = True
-            self._queue.append(self._gathering.hand_over())
             self._waiting += count
             self._changed.notify_all()
-            self.torn = False
+            self._gathering.append_whole(self._queue)
 
     def _is_idle(self) -> bool:
         return self._error is not None or not (self._queue or self._busy)

@@ -13,7 +13,7 @@ import click
 from floatref.cli.program.interrupts import (
     INTERRUPTED,
     Interrupt,
-    outside_of_loading,
+    outside_of_whole,
     raised_again,
     send_again,
 )
@@ -39,7 +39,7 @@ def interruptible(line: Callable[[], str], ending_s: float = ENDING_S) -> Iterat
         caught = []
     over, errors, came = Event(), os.dup(2), list[int]()
 
-    @outside_of_loading
+    @outside_of_whole
     def stop(number: int) -> NoReturn:
         _handle(caught, _do_nothing)
         if not came:

@@ -27,6 +27,9 @@ SIGNALS = tuple(
 LOADING = ("_raw_object_cache_notify", "_raw_object_cache_getbuffer")
 """Functions of llvmlite that LLVM calls for the code of a kernel. What is raised in them is dropped
 as well, and before it can come again numba has written through an address that is 0."""
+WHOLE = (*LOADING, "take_whole", "append_whole")
+"""Names of all functions that no signal interrupts: these, and those of `floatref.live` between
+whose statements samples would be taken but not counted. They wait for nothing."""
 
 
 class Interrupt(KeyboardInterrupt):
@@ -52,7 +55,7 @@ class EndHandler:
 
     def __call__(self, number: int, frame: FrameType | None = None) -> None:
         """Act, unless the files of what another handler has ended are being removed."""
-        outside_of_loading(self._end)(number, frame)
+        outside_of_whole(self._end)(number, frame)
 
     def _end(self, number: int) -> None:
         now_s = monotonic()
@@ -96,14 +99,14 @@ def raised_again(again: Callable[[], bool]) -> Iterator[None]:
             sys.unraisablehook = before
 
 
-def outside_of_loading(act: Callable[[int], None]) -> Callable[[int, FrameType | None], None]:
-    """Return a handler that calls ``act``, unless LLVM waits for a function of `LOADING`.
+def outside_of_whole(act: Callable[[int], None]) -> Callable[[int, FrameType | None], None]:
+    """Return a handler that calls ``act``, unless a function of `WHOLE` is at work.
 
     The signal comes again in a moment then.
     """
 
     def handle(number: int, frame: FrameType | None) -> None:
-        while frame is not None and frame.f_code.co_name not in LOADING:
+        while frame is not None and frame.f_code.co_name not in WHOLE:
             frame = frame.f_back
         (act if frame is None else send_again)(number)
 

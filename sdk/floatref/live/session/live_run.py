@@ -64,11 +64,7 @@ class LiveRun:
     @property
     def is_saved(self) -> bool:
         """Whether all that has come is on the disk."""
-        return self.complete or not (self._unsaved or self._is_torn)
-
-    @property
-    def _is_torn(self) -> bool:
-        return self._torn or (self._stream is not None and self._stream.torn)
+        return self.complete or not (self._unsaved or self._torn)
 
     def greet(self, hello: Hello, from_start: bool = False) -> Iterator[Answer]:
         """Begin the run, or go on with it, and yield the answers.
@@ -119,10 +115,10 @@ class LiveRun:
     def save(self) -> Iterator[Answer]:
         """Save all that has come, and yield the answers that are ready.
 
-        A stream that was interrupted within a push has more samples than were counted: of such a
-        run what was saved before remains.
+        A stream that has failed within a push has more samples than were counted: of such a run
+        what was saved before remains.
         """
-        if self._stream is None or self._directory is None or self._is_torn:
+        if self._stream is None or self._directory is None or self._torn:
             return
         if self._stream.is_open:
             yield from self._save()
@@ -201,22 +197,22 @@ class LiveRun:
 
     def _push(self, pieces: Mapping[str, Piece]) -> None:
         assert self._stream is not None
-        given: dict[Any, Any] = {
-            name: each.values if each.times_s is None else (each.times_s, each.values)
-            for name, each in pieces.items()
-            if each.values.size
-        }
-        if given:
-            # Ctrl-C may come between the two.
-            self._torn = True
-            try:
-                self._stream.push(given)
-            except InputError:
-                # Then it has taken nothing.
-                self._torn = False
-                raise
-            self._numbers.count(pieces)
-            self._unsaved, self._torn = True, False
+        if self.take_whole(self._stream, pieces):
+            self._stream.hand_over()
+
+    def take_whole(self, stream: LiveStream, pieces: Mapping[str, Piece]) -> bool:
+        """Let ``stream`` take ``pieces``, count them, and return whether its `hand_over` is due."""
+        given: dict[Any, Any] = {name: p.pushed for name, p in pieces.items() if p.values.size}
+        self._torn = True
+        try:
+            is_due = bool(given) and stream.take_whole(given)
+        except InputError:
+            # Then it has taken nothing.
+            self._torn = False
+            raise
+        self._numbers.count(pieces)
+        self._unsaved, self._torn = self._unsaved or bool(given), False
+        return is_due
 
     def _observe(self, samples: Samples) -> None:
         counts = {name: each.values.size for name, each in samples.channels.items()}

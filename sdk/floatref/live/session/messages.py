@@ -69,6 +69,11 @@ class Piece:
     times_s: FloatArray | None = None
     first: int | None = None
 
+    @property
+    def pushed(self) -> FloatArray | tuple[FloatArray, FloatArray]:
+        """What a stream is given of it."""
+        return self.values if self.times_s is None else (self.times_s, self.values)
+
 
 @dataclass(frozen=True, eq=False)
 class Samples:

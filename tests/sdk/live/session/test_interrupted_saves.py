@@ -5,14 +5,18 @@ a run without one.
 """
 
 import json
+import signal
 import sys
+import time
 
 import numpy as np
 import pytest
 
 from floatref import InputError, read_profile
+from floatref.cli.program.interrupts import Interrupt, raising_interrupt
 from floatref.files import growing_profile
 from floatref.live.as_live import run_as_live
+from floatref.live.gathering import Gathering
 from floatref.live.session import live_run, run_directory
 from floatref.live.session.messages import read_message
 from floatref.live.stream import LiveStream
@@ -36,6 +40,31 @@ def cut(messages, next_samples):
             piece["first"] += known
             piece["values"] = piece["values"][known:]
     return [hello, *pieces, finish]
+
+
+@pytest.mark.posix
+def test_a_signal_of_a_command_comes_behind_samples_that_are_being_taken(made, live, tmp_path):
+    def hear_signal(self, *given):
+        signal.raise_signal(signal.SIGTERM)
+        return take(self, *given)
+
+    def take_and_wait():
+        list(run.take(read_message(made[0][1], "line")))
+        taken.append(True)
+        for _ in range(600):  # One call would not end by a signal just before it.
+            time.sleep(0.05)
+
+    take, taken = Gathering.take, []
+    run = live_run.LiveRun(tmp_path / "run", False)
+    list(run.greet(read_message(made[0][0], "line")))
+    with pytest.MonkeyPatch.context() as patch, raising_interrupt():
+        patch.setattr(Gathering, "take", hear_signal)
+        with pytest.raises(Interrupt):
+            take_and_wait()
+    assert taken
+    assert list(run.save())
+    assert run.is_saved
+    run.close()
 
 
 def check_resumes(path, made, live, same):
@@ -170,14 +199,14 @@ def test_a_signal_while_the_end_is_calculated_finds_the_run_saved(made, live, sa
 
 def test_a_run_that_is_torn_keeps_what_was_saved(made, live, same, tmp_path):
     def interrupt(self, samples):
-        push(self, samples)
+        take(self, samples)
         raise KeyboardInterrupt
 
-    push = LiveStream.push
+    take = LiveStream.take_whole
     run = live_run.LiveRun(tmp_path / "run", False)
     with pytest.MonkeyPatch.context() as patch:
         list(run.greet(read_message(made[0][0], "line")))
-        patch.setattr(LiveStream, "push", interrupt)
+        patch.setattr(LiveStream, "take_whole", interrupt)
         with pytest.raises(KeyboardInterrupt):
             list(run.take(read_message(made[0][1], "line")))
     assert not run.is_saved
