@@ -81,11 +81,13 @@ def report_start(recording: floatref.Recording, pipeline: str) -> None:
         print(f"  {state:26} {wall:6.2f} s, {processor:6.2f} s of the processor")
 
 
-def seconds_of(command: list[str], environment: dict[str, str]) -> tuple[float, float]:
-    """Run a process; return its wall time and its processor time in s."""
+def seconds_of(
+    command: list[str], environment: dict[str, str], codes: tuple[int, ...] = (0,)
+) -> tuple[float, float]:
+    """Run a process, which ends with one of ``codes``; return its wall and processor time in s."""
     begin = time.perf_counter()
     child = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
     _, status, used = os.wait4(child.pid, 0)
-    if status:
+    if os.waitstatus_to_exitcode(status) not in codes:
         sys.exit(1)
     return time.perf_counter() - begin, used.ru_utime + used.ru_stime
