@@ -85,7 +85,7 @@ def measure(folder: Path, paths: int, seconds: float, pipeline: str) -> Run:
     clock_s, busy = time.perf_counter() - begin, others.processors()
     if status:
         sys.exit(1)
-    sizes = [sum(f.stat().st_size for f in of.glob("*.f64")) / 1e6 for of in (out, drive)]
+    sizes = [sum(f.stat().st_size for f in of.glob("*.[fu]*")) / 1e6 for of in (out, drive)]
     for done in (drive, out):
         shutil.rmtree(done)
     processor_s = used.ru_utime + used.ru_stime

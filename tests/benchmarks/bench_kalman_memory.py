@@ -180,7 +180,10 @@ def report(folder: Path, given: argparse.Namespace) -> None:
     size = sum(file.stat().st_size for file in (folder / "drive").glob("*.f64"))
     print(f"{given.pipeline}: {given.seconds:g} s at 16 kHz, two wheel paths, stop by stop")
     print(f"  samples on disk {size / 1e6:9.1f} MB")
+    made = sum(file.stat().st_size for file in (folder / "profile").glob("*.[fu]*")) / 1e6
     print(f"  peak resident   {peak:9.1f} MB   (limit {LIMITS_MB[given.pipeline]})")
+    print(f"  profile, 1-σ    {made:9.1f} MB")
+    print(f"  beyond profile  {peak - made:9.1f} MB")
     print(f"  wall time       {taken:9.1f} s    ({given.seconds / taken:.0f} x real time)")
     print(f"first {given.compared:g} s, elevation (limit {AGREEMENT_M * 1e6:g} µm)", flush=True)
     subprocess.run([*again, "--compare", str(folder / "part")], check=True)

@@ -18,7 +18,7 @@ import sys
 import time
 from typing import Any
 
-from figures import COMMANDS
+from figure_rows import COMMANDS
 from machine import IDLE, ROOT, Others, commit, load, where
 
 STORED = ROOT / "docs" / "data" / "performance.json"

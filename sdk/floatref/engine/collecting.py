@@ -132,4 +132,4 @@ def _track(
         add_axis_error(sigma, found.elevation, interval_m, scale)
         if contact_m := resolved.get("contact_m"):
             add_contact_error(sigma, found.elevation, interval_m, contact_m)
-    return ProfileTrack.of(name, found.elevation, valid, sigma)
+    return ProfileTrack.taking(name, found.elevation, valid, sigma)

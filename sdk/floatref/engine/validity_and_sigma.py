@@ -52,8 +52,10 @@ class Reach:
 
 
 def valid_points(flags: FlagArray, interval_m: float, reach: Reach) -> BoolArray:
-    """Return which points are valid: unflagged, and out of ``reach`` of flagged ones."""
-    trusted: BoolArray = flags == 0
+    """Return which points are valid: unflagged, and out of ``reach`` of flagged ones.
+
+    They take the place of ``flags`` in memory.
+    """
 
     def points(length_m: float) -> int:
         return round(min(length_m / interval_m, flags.size))
@@ -63,19 +65,20 @@ def valid_points(flags: FlagArray, interval_m: float, reach: Reach) -> BoolArray
         (Flag.SLOW, points(reach.before_slow_m), points(reach.after_slow_m)),
         (Flag.BRAKING, 0, points(reach.after_braking_m)),
     )
-    for flag, before, after in kinds:
-        _spread(flags, flag, before, after, trusted)
+    reached = [found for kind in kinds for found in _reached(flags, *kind)]
+    trusted: BoolArray = np.equal(flags, 0, out=flags.view(np.bool_))
     run_in = points(reach.run_in_m)
-    trusted[:run_in] = False
-    trusted[flags.size - run_in :] = False
+    for first, end in (*reached, (0, run_in), (flags.size - run_in, flags.size)):
+        trusted[first:end] = False
     return trusted
 
 
-def _spread(flags: FlagArray, flag: Flag, before: int, after: int, trusted: BoolArray) -> None:
+def _reached(flags: FlagArray, flag: Flag, before: int, after: int) -> Iterator[tuple[int, int]]:
+    """Yield first and end of the points around those with ``flag``."""
     for begin in range(0, flags.size, PIECE):
         marked = (flags[begin : begin + PIECE] & np.uint8(flag)) != 0
         for first, last in _groups(marked, before + after + 1):
-            trusted[max(begin + first - before, 0) : begin + last + after + 1] = False
+            yield max(begin + first - before, 0), begin + last + after + 1
 
 
 def _groups(marked: BoolArray, apart: int) -> Iterator[tuple[int, int]]:

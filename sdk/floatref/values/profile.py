@@ -23,7 +23,7 @@ from floatref.values.display.short_text import (
 )
 from floatref.values.display.similar_names import hint_at
 from floatref.values.display.views import view
-from floatref.values.scanning import first_where, flags_where
+from floatref.values.scanning import chunks, first_where
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -58,10 +58,22 @@ class ProfileTrack:
     ) -> "ProfileTrack":
         """Return a track; without ``valid`` every finite point is valid."""
         z = frozen(elevation)
-        finite = flags_where(np.isfinite, z)
-        mask = finite if valid is None else np.asarray(valid, dtype=np.bool_) & finite
-        mask.flags.writeable = False
-        return cls(name, z, mask, None if sigma is None else frozen(sigma))
+        mask = np.ones(z.size, np.bool_) if valid is None else np.array(valid, dtype=np.bool_)
+        return cls.taking(name, z, mask, sigma)
+
+    @classmethod
+    def taking(
+        cls, name: str, elevation: FloatArray, valid: BoolArray, sigma: ArrayLike | None = None
+    ) -> "ProfileTrack":
+        """Return a track that has ``valid`` for its own; points without elevation are taken out.
+
+        Raises InputError for arrays of other shapes.
+        """
+        if valid.shape == elevation.shape:
+            for first, part in chunks(elevation):
+                valid[first : first + part.size] &= np.isfinite(part)
+        valid.flags.writeable = False
+        return cls(name, frozen(elevation), valid, None if sigma is None else frozen(sigma))
 
     def __post_init__(self) -> None:
         """Refuse a track without points, with infinities, or with columns of unequal length."""
@@ -73,10 +85,16 @@ class ProfileTrack:
             raise InputError(f"track {self.name}: infinite elevation; mark missing points as NaN")
         if self.valid.size != n or (self.sigma is not None and self.sigma.size != n):
             raise InputError(f"track {self.name}: elevation, valid and sigma differ in length")
-        if (self.valid & flags_where(np.isnan, self.elevation)).any():
+        if self._validates_nan():
             raise InputError(f"track {self.name}: a point without elevation is marked valid")
         if self.sigma is not None and first_where(lambda s: s < 0, self.sigma) is not None:
             raise InputError(f"track {self.name}: sigma is below zero; give a standard deviation")
+
+    def _validates_nan(self) -> bool:
+        return any(
+            bool((self.valid[first : first + part.size] & np.isnan(part)).any())
+            for first, part in chunks(self.elevation)
+        )
 
     def __repr__(self) -> str:
         """Return name, points and validity on one line."""

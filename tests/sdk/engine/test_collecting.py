@@ -1,11 +1,15 @@
 """What is gathered piece by piece is what lies in the pieces."""
 
+import tracemalloc
+from fractions import Fraction
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from floatref.engine.collecting import Growing, collect_tracks
-from floatref.values.block import Block
+from floatref.engine.collecting import Growing, collect_profile, collect_tracks
+from floatref.engine.lookup import pipeline
+from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
 LEFT, RIGHT = ChannelId("elevation", "left"), ChannelId("elevation", "right")
@@ -47,3 +51,22 @@ def test_every_track_gets_its_own_sigma_if_there_is_one():
     assert found["left"].sigma.tolist() == [0.1, 0.2, 1.0]
     assert found["right"].sigma.tolist() == [0.5, 0.6, 1.0]
     assert collect_tracks(iter(blocks), ("left", "right"))["left"].sigma is None
+
+
+def test_a_profile_takes_its_own_memory_and_none_that_grows_with_it():
+    points, piece = 3_000_000, 100_000
+    channels, tracks = frozenset({LEFT, RIGHT}), ("left", "right")
+    header = Header(Axis.DISTANCE, 0.005, 0.0, Fraction(16000), channels, tracks)
+    z, marks = np.zeros(piece), np.zeros(piece, np.uint8)
+    blocks = (
+        Block(first, {LEFT: z, RIGHT: z}, flags={LEFT: marks, RIGHT: marks})
+        for first in range(0, points, piece)
+    )
+    tracemalloc.start()
+    made = collect_profile(header, blocks, pipeline("temporal-hpf"), {}, points)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    own = sum(track.elevation.nbytes + track.valid.nbytes for track in made.tracks)
+    assert own == 2 * 9 * points
+    # Pieces of 2 MB on their way; a copy of the flags of one track would be 3 MB more.
+    assert peak - own < 2e6

@@ -9,6 +9,7 @@ from floatref.screening.second_sensor.doubts import Doubt
 from floatref.values.arrays import BoolArray, FloatArray
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Channel, Recording
+from floatref.values.scanning import chunks
 
 RADIUS_M = 6.371e6
 """Mean radius of the earth: a degree is right to 0.3 %."""
@@ -105,10 +106,22 @@ def _good(quality: Channel | None, times: FloatArray) -> BoolArray:
 
 
 def _counted(encoder: Channel, times: FloatArray) -> FloatArray:
-    known = ~np.isnan(encoder.values)
-    if known.all():
-        return np.interp(times, encoder.times_s, encoder.values)
-    return np.interp(times, encoder.times_s[known], encoder.values[known])
+    """Return the distance in m at ``times``, which ascend, between the known samples around each.
+
+    The encoder of hours is never in memory as a whole.
+    """
+    counted, done = np.full(times.size, np.nan), 0
+    stamps, values = np.empty(0), np.empty(0)
+    for first, part in chunks(encoder.values):
+        known = ~np.isnan(part)
+        stamps = np.append(stamps[-1:], encoder.clock.times(part.size, first)[known])
+        values = np.append(values[-1:], part[known])
+        if stamps.size:
+            end = int(np.searchsorted(times, stamps[-1], "right"))
+            counted[done:end] = np.interp(times[done:end], stamps, values)
+            done = end
+    counted[done:] = values[-1] if values.size else np.nan
+    return counted
 
 
 def _off(ways: Ways, ratio: float) -> BoolArray:

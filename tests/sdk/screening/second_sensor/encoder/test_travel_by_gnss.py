@@ -1,5 +1,6 @@
 """The encoder against places: scale, lost counts, lateness; slip of a hard brake is no fault."""
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -8,9 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.screening.second_sensor.doubts import Doubt
-from floatref.screening.second_sensor.encoder.travel_by_gnss import FEWEST, RADIUS_M, encoder_doubts
+from floatref.screening.second_sensor.encoder.travel_by_gnss import (
+    FEWEST,
+    RADIUS_M,
+    _counted,
+    encoder_doubts,
+)
+from floatref.values import scanning
 from floatref.values.arrays import FloatArray
-from floatref.values.clock import UniformClock
+from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.recording import Channel, Recording
 
 RATE, GNSS_HZ, LENGTH_S = 100.0, 20.0, 40.0
@@ -101,3 +108,41 @@ def test_places_that_are_no_numbers_are_no_places(names: list[str], known: int) 
 def test_without_places_there_is_no_doubt() -> None:
     alone = Recording(recording(3.0 * travel(TIMES)).channels[:1])
     assert not list(encoder_doubts(alone))
+
+
+@given(
+    count=st.integers(1, 60),
+    missing=st.sets(st.integers(0, 59)),
+    places=st.lists(st.floats(0.0, 0.59), max_size=20),
+    stamped=st.booleans(),
+)
+def test_the_distance_at_a_time_is_the_same_in_pieces(
+    count: int, missing: set[int], places: list[float], stamped: bool
+) -> None:
+    """Numpy's `interp` of the whole says what it has to be."""
+    values = np.arange(count) + 0.3 * np.sin(np.arange(count))
+    values[[k for k in missing if k < count]] = np.nan
+    clock = UniformClock.of(RATE)
+    encoder = Channel.of("distance", values, clock)
+    if stamped:
+        encoder = Channel.of("distance", values, StampedClock.of(clock.times(count) + 0.001))
+    times, known = np.sort(np.array(places)), ~np.isnan(values)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scanning, "CHUNK", 7)
+        found = _counted(encoder, times)
+    if known.any():
+        np.testing.assert_array_equal(
+            found, np.interp(times, encoder.times_s[known], values[known])
+        )
+    else:
+        assert np.isnan(found).all()
+
+
+def test_an_encoder_of_hours_is_not_in_memory_as_a_whole() -> None:
+    encoder = Channel.of("distance", np.zeros(4_000_000), UniformClock.of(16000.0))
+    tracemalloc.start()
+    _counted(encoder, np.arange(250.0))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    # Times, flags and joined samples of a piece of 2 MiB; the times of all would be 32 MB.
+    assert peak < 6 * 8 * scanning.CHUNK
