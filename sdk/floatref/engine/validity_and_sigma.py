@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray
+from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray, IndexArray
 
 PIECE = 1 << 18
 """Points processed together, so that memory stays bounded on a long profile."""
+PART = 1 << 14
+"""Points of a piece whose mean slopes are taken together: their indices are longer than they."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +94,6 @@ def _groups(marked: BoolArray, apart: int) -> Iterator[tuple[int, int]]:
 
 LAG_M = 0.05
 """Length in m over which slopes are taken: an encoder's error after a few hundred metres."""
-"""Points processed together, so that memory stays bounded on a long profile."""
 AROUND_M = 50.0
 """Length in m: the slope is the root mean square within half of it to either side."""
 
@@ -140,14 +141,24 @@ def slope(elevation: FloatArray, interval_m: float, lag_m: float = LAG_M) -> Flo
     lag = max(1, round(lag_m / interval_m))
     if elevation.size <= lag:
         return np.zeros(elevation.size)
-    steps = (elevation[lag:] - elevation[:-lag]) / (lag * interval_m)
-    there = np.isfinite(steps)
-    squares = np.cumsum(np.append(0.0, np.where(there, steps, 0.0) ** 2))
-    counts = np.cumsum(np.append(0, there))
-    half = max(1, round(AROUND_M / 2 / interval_m))
-    place = np.arange(elevation.size)
-    low, high = np.clip(place - half, 0, steps.size), np.clip(place + half, 0, steps.size)
-    low = np.minimum(low, steps.size - 1)
-    number = np.maximum(counts[high] - counts[low], 1)
-    mean: FloatArray = np.sqrt((squares[high] - squares[low]) / number)
+    squares, counts = _running_sums(elevation, lag, lag * interval_m)
+    half, last = max(1, round(AROUND_M / 2 / interval_m)), counts.size - 1
+    mean = np.empty(elevation.size)
+    for begin in range(0, mean.size, PART):
+        place = np.arange(begin, min(begin + PART, mean.size))
+        low, high = np.clip(place - half, 0, last - 1), np.clip(place + half, 0, last)
+        number = np.maximum(counts[high] - counts[low], 1)
+        mean[begin : begin + PART] = np.sqrt((squares[high] - squares[low]) / number)
     return mean
+
+
+def _running_sums(
+    elevation: FloatArray, lag: int, length_m: float
+) -> tuple[FloatArray, IndexArray]:
+    """Return the sums of the squares of all slopes before each, and how many are known."""
+    steps = elevation[lag:] - elevation[:-lag]
+    steps /= length_m
+    there = np.isfinite(steps)
+    steps[~there] = 0.0
+    steps *= steps
+    return np.cumsum(np.append(0.0, steps)), np.cumsum(np.append(0, there))
