@@ -18,6 +18,7 @@ from floatref.measures.roughness.roughness_index import STANDARD, iri, rectified
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.display.iri_table import ProfileIri, TrackIri
 from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.scanning import stretch_edges
 
 
 def profile_iri(profile: Profile, settings: IriSettings = STANDARD) -> ProfileIri:
@@ -37,7 +38,7 @@ def valid_stretches(
 ) -> Iterator[slice]:
     """Yield every stretch of points, all ``valid``, at the interval in m, that is long enough."""
     needed = settings.start_count(interval_m)
-    edges = np.flatnonzero(np.diff(valid, prepend=False, append=False))
+    edges = stretch_edges(valid)
     firsts, ends = edges[::2], edges[1::2]
     for at in np.flatnonzero(ends - firsts > needed):
         yield slice(int(firsts[at]), int(ends[at]))

@@ -22,6 +22,7 @@ FORCES = ("longitudinal_specific_force", "lateral_specific_force", "vertical_spe
 RATES = ("roll_rate", "pitch_rate", "yaw_rate")
 FEWEST = 60
 """Fewest means; a run of less than three seconds is not examined."""
+NOTHING = np.empty(0, np.int64)
 SWING_S = 10.0
 """Means over this time in s, taken twice, give the slope of the road and the drift of a gyro."""
 
@@ -129,21 +130,34 @@ def means(channel: Channel, grid: Grid) -> FloatArray:
     return mean_between(channel, grid.edges)
 
 
-def mean_between(channel: Channel, edges: FloatArray) -> FloatArray:
+def mean_between(channel: Channel, edges: FloatArray, gone: IndexArray = NOTHING) -> FloatArray:
     """Return the mean of ``channel`` between neighbouring ``edges``, shape (n + 1,) in s.
 
-    The result has shape (n,) and is NaN where there is no sample.
+    The result has shape (n,) and is NaN where there is no sample. Samples with the numbers
+    ``gone``, in order, count as missing.
     """
     first = first_samples(channel, edges)
     found = np.full(edges.size - 1, np.nan)
     for low, high in _groups(first):
-        chunk, lengths = channel.values[first[low] : first[high]], np.diff(first[low : high + 1])
+        chunk = samples(channel, int(first[low]), int(first[high]), gone)
+        lengths = np.diff(first[low : high + 1])
         filled = lengths > 0
         starts = first[low:high][filled] - first[low]
         if starts.size:
             found[low:high][filled] = _mean(chunk, starts, lengths[filled])
         release(channel.values)
     return found
+
+
+def samples(channel: Channel, first: int, behind: int, gone: IndexArray) -> FloatArray:
+    """Return the samples from ``first`` to the one before ``behind``, those ``gone`` as NaN."""
+    values = channel.values[first:behind]
+    low, high = np.searchsorted(gone, (first, behind))
+    if low == high:
+        return values
+    values = np.array(values)
+    values[gone[low:high] - first] = np.nan
+    return values
 
 
 def _mean(chunk: FloatArray, starts: IndexArray, lengths: IndexArray) -> FloatArray:

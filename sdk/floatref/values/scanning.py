@@ -53,6 +53,15 @@ def flags_where(condition: Callable[[FloatArray], BoolArray], values: FloatArray
     return met
 
 
+def stretch_edges(flags: BoolArray) -> IndexArray:
+    """Return where stretches of ``flags`` that are set begin and end, in turns, shape (2 n,)."""
+    edges, before = [np.zeros(0, np.int64)], False
+    for first, part in chunks(flags):
+        edges.append(first + np.flatnonzero(np.diff(part, prepend=before)))
+        before = bool(part[-1])
+    return np.concatenate([*edges, [flags.size] * before]).astype(np.int64)
+
+
 def first_where(condition: Callable[[FloatArray], BoolArray], values: FloatArray) -> int | None:
     """Return the index of the first sample that meets ``condition``, or None."""
     for first, chunk in chunks(values):

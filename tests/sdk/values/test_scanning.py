@@ -16,6 +16,7 @@ from floatref.values.scanning import (
     longest_gap,
     longest_step,
     median_step,
+    stretch_edges,
     take,
 )
 
@@ -97,3 +98,10 @@ def test_samples_are_taken_where_they_are(index: list[int]) -> None:
     values = np.random.default_rng(0).normal(size=5000)
     chosen = np.array(index, dtype=np.int64)
     np.testing.assert_array_equal(take(values, chosen), values[chosen])
+
+
+@given(flags=npst.arrays(np.bool_, st.integers(0, 40)))
+@PIECES
+def test_edges_are_those_of_the_whole(flags):
+    whole = np.flatnonzero(np.diff(flags, prepend=False, append=False))
+    np.testing.assert_array_equal(stretch_edges(flags), whole)

@@ -1,7 +1,5 @@
 """Single samples that leave their neighbours: a bad contact, a bit that flips, dust in a beam."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from floatref.screening.damage.damaged_samples import NONE, Damage, describe_damage
@@ -48,16 +46,6 @@ def find_spikes(channel: Channel) -> Damage:
     spans: IndexArray = np.stack([at, at + 1], axis=1)
     line = describe_damage(channel, spans, "leaves its neighbours and returns at once")
     return Damage(spans, NONE, warnings=(line,))
-
-
-def without_spikes(channel: Channel) -> Channel:
-    """Return ``channel`` with its spikes missing; itself without any."""
-    spans = find_spikes(channel).gone
-    if not spans.size:
-        return channel
-    values = np.array(channel.values)
-    values[spans[:, 0]] = np.nan
-    return replace(channel, values=values)
 
 
 def _usual(values: FloatArray) -> float:

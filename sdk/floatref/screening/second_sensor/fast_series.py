@@ -9,8 +9,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from floatref.screening.slow_series import first_samples, mean_between
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.screening.slow_series import NOTHING, first_samples, mean_between, samples
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.recording import Channel
 
 STEP_S = 0.005
@@ -48,24 +48,27 @@ def shared_grid(channels: list[Channel]) -> FastGrid:
     return FastGrid(begin, max(0, int((end - begin) / STEP_S)))
 
 
-def series_of(channel: Channel, grid: FastGrid) -> FloatArray:
-    """Return ``channel`` on ``grid``, shape (count,); NaN where it has no sample."""
+def series_of(channel: Channel, grid: FastGrid, gone: IndexArray = NOTHING) -> FloatArray:
+    """Return ``channel`` on ``grid``, shape (count,); NaN where it has no sample.
+
+    Samples with the numbers ``gone``, in order, count as missing.
+    """
     if channel.mean_rate_hz * STEP_S < FEWEST_SAMPLES:
-        times, values = _around(channel, grid)
+        times, values = _around(channel, grid, gone)
         known = ~np.isnan(values)
         if not known.any():
             return np.full(grid.count, np.nan)
         return np.interp(grid.times, times[known], values[known])
     edges: FloatArray = grid.begin_s + STEP_S * np.arange(grid.count + 1.0)
-    return mean_between(channel, edges)
+    return mean_between(channel, edges, gone)
 
 
-def _around(channel: Channel, grid: FastGrid) -> tuple[FloatArray, FloatArray]:
+def _around(channel: Channel, grid: FastGrid, gone: IndexArray) -> tuple[FloatArray, FloatArray]:
     """Return times and values of the samples of ``grid``, and of one on either side."""
     ends = np.array([grid.begin_s, grid.begin_s + STEP_S * grid.count])
     first, behind = first_samples(channel, ends).tolist()
     first, behind = max(first - 1, 0), min(behind + 1, channel.values.size)
-    return channel.clock.times(behind - first, first), channel.values[first:behind]
+    return channel.clock.times(behind - first, first), samples(channel, first, behind, gone)
 
 
 def band(series: FloatArray, low_hz: float, high_hz: float, integrals: int = 0) -> FloatArray:

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from floatref.screening.damage.spikes import without_spikes
+from floatref.screening.damage.spikes import find_spikes
 from floatref.screening.second_sensor.body_faults import body_doubts
 from floatref.screening.second_sensor.doubts import Doubt
 from floatref.screening.second_sensor.encoder.encoder_steps import step_doubts
@@ -49,7 +49,7 @@ from floatref.screening.second_sensor.suspension_travel import (
     is_consistent,
     travel_doubts,
 )
-from floatref.values.arrays import BoolArray, FloatArray
+from floatref.values.arrays import BoolArray, FloatArray, IndexArray
 from floatref.values.channels import ChannelId
 from floatref.values.recording import Channel, Recording, TrackSetup
 
@@ -76,7 +76,8 @@ def weigh_recording(recording: Recording) -> tuple[Doubt, ...]:
     distrusted = {name for doubt in found if doubt.whole_run for name in doubt.suspects}
     pieces = grid.pieces(PIECE_S)
     partial = [doubt for doubt in found if not doubt.whole_run]
-    compared = [_Piece(recording, piece, distrusted, partial) for piece in pieces]
+    spikes = _Spikes()
+    compared = [_Piece(recording, piece, distrusted, partial, spikes) for piece in pieces]
     by_piece = [tuple(piece.doubts()) for piece in compared]
     # While it moves, a laser is compared all the time; a stop says what the others leave open.
     open_ = [t for t in recording.tracks if not any(t in piece.roads for piece in compared)]
@@ -85,6 +86,19 @@ def weigh_recording(recording: Recording) -> tuple[Doubt, ...]:
 
 def _is_compared(channel: Channel) -> bool:
     return channel.id.name in (FORCE, HEIGHT, DISTANCE, BODY, WHEEL, TRAVEL, *TURNING)
+
+
+class _Spikes:
+    """Numbers of the spikes by channel: each is looked through once, and not in every piece."""
+
+    def __init__(self) -> None:
+        self._found: dict[ChannelId, IndexArray] = {}
+
+    def of(self, channel: Channel) -> IndexArray:
+        """Return the numbers of the spikes of ``channel``, shape (n,)."""
+        if channel.id not in self._found:
+            self._found[channel.id] = find_spikes(channel).gone[:, 0]
+        return self._found[channel.id]
 
 
 class _Piece:
@@ -96,7 +110,9 @@ class _Piece:
         grid: FastGrid,
         distrusted: set[ChannelId],
         partial: list[Doubt],
+        spikes: _Spikes,
     ) -> None:
+        self._spikes = spikes
         self._recording, self._grid, self._distrusted = recording, grid, set(distrusted)
         self._series: dict[ChannelId, FloatArray] = {}
         self.roads: dict[str, TwoRoads] = {}
@@ -191,7 +207,8 @@ class _Piece:
 
     def _read(self, channel: Channel) -> FloatArray:
         if channel.id not in self._series:
-            self._series[channel.id] = series_of(without_spikes(channel), self._grid)
+            spikes = self._spikes.of(channel)
+            self._series[channel.id] = series_of(channel, self._grid, spikes)
         return self._series[channel.id]
 
 

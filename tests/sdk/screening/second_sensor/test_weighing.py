@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from floatref.errors import InputError
+from floatref.screening.damage.damaged_samples import Damage
+from floatref.screening.damage.spikes import find_spikes
 from floatref.screening.findings import Facts, Screening
 from floatref.screening.second_sensor import weighing
 from floatref.screening.second_sensor.doubts import Doubt
@@ -13,7 +15,7 @@ from floatref.screening.second_sensor.weighing import weigh_recording
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import ChannelId
 from floatref.values.needs import Needs
-from floatref.values.recording import Recording
+from floatref.values.recording import Channel, Recording
 from floatref_conformance.faults.fault_list import FAULTS
 from floatref_conformance.proving_ground import Scenario, simulate
 
@@ -85,3 +87,19 @@ def test_in_a_long_run_a_piece_that_is_wrong_is_a_stretch(
     assert found
     assert all(not doubt.fatal for doubt in found)
     assert all(doubt.spans[0][0] > 9.0 for doubt in found)
+
+
+def test_a_channel_is_looked_through_for_spikes_once_however_long_the_run(
+    healthy: Recording, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looked: list[ChannelId] = []
+
+    def count(channel: Channel) -> Damage:
+        looked.append(channel.id)
+        return find_spikes(channel)
+
+    monkeypatch.setattr(weighing, "find_spikes", count)
+    monkeypatch.setattr(weighing, "PIECE_S", 5.0)
+    weigh_recording(healthy)
+    assert looked
+    assert len(looked) == len(set(looked))
