@@ -78,6 +78,8 @@ def measure(folder: Path, paths: int, seconds: float, pipeline: str) -> Run:
     shutil.copytree(folder / str(paths), drive)
     lengthen(drive, seconds)
     shorten(drive, min(seconds / CYCLE_S, 1.0))
+    # What is still to be written would be written meanwhile.
+    os.sync()
     words = ["process", str(drive), "--out", str(out), "--pipeline", pipeline, "--json"]
     begin, others = time.perf_counter(), Others()
     child = subprocess.Popen([sys.executable, "-c", RUN, *words], stdout=subprocess.DEVNULL)
