@@ -200,7 +200,7 @@ def _print_tracks(profile: Profile, out: Path) -> None:
             f"{profile.start_m:.10g}",
             number(profile.length_m, 2),
             f"{profile.interval_m:.10g}",
-            number(float((~track.valid).sum()) * profile.interval_m, 2),
+            number(float(track.valid.size - track.valid.sum()) * profile.interval_m, 2),
         ]
         for track in profile.tracks
     ]

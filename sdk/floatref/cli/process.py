@@ -138,7 +138,7 @@ def _track_report(track: ProfileTrack, profile: Profile, warnings: list[str]) ->
     except InputError as error:
         # A profile too short or too coarse for the IRI car is still a valid result.
         warnings.append(f"track {track.name}: no IRI: {error}")
-        figures = no_figures(float((~track.valid).sum()) * profile.interval_m)
+        figures = no_figures(float(track.valid.size - track.valid.sum()) * profile.interval_m)
     return {"name": track.name, **figures}
 
 

@@ -49,13 +49,19 @@ def measured_stretch(elevation: FloatArray) -> slice:
     return slice(int(finite.argmax()), elevation.size - int(finite[::-1].argmax()))
 
 
+def _is_missing(part: FloatArray) -> BoolArray:
+    return np.asarray(~np.isfinite(part))
+
+
 def bridge(elevation: FloatArray, missing: BoolArray | None = None) -> FloatArray:
     """Return ``elevation`` with every ``missing`` point on the straight line over its gap.
 
     Without ``missing`` these are the points that are not finite.
     """
     if missing is None:
-        missing = flags_where(lambda part: ~np.isfinite(part), elevation)
+        if first_where(_is_missing, elevation) is None:
+            return elevation
+        missing = flags_where(_is_missing, elevation)
     if not missing.any():
         return elevation
     # Only the ends of gaps matter: a line through all points takes five times their room.

@@ -18,7 +18,7 @@ from floatref.measures.roughness.roughness_index import STANDARD, iri, rectified
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 from floatref.values.display.iri_table import ProfileIri, TrackIri
 from floatref.values.profile import Profile, ProfileTrack
-from floatref.values.scanning import stretch_edges
+from floatref.values.scanning import first_where, stretch_edges
 
 
 def profile_iri(profile: Profile, settings: IriSettings = STANDARD) -> ProfileIri:
@@ -126,7 +126,7 @@ def _track_iri(track: ProfileTrack, interval_m: float, settings: IriSettings) ->
 
 def _iri_of_all(track: ProfileTrack, interval_m: float, settings: IriSettings) -> float:
     """Return the IRI in m/km over all points; NaN if too few are measured."""
-    if not np.isfinite(track.elevation).any():
+    if first_where(np.isfinite, track.elevation) is None:
         return np.nan
     stretch = measured_stretch(track.elevation)
     if stretch.stop - stretch.start <= settings.start_count(interval_m):

@@ -1,5 +1,7 @@
 """The IRI of valid points: that of the valid stretches, untouched by what is not valid."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,6 +12,7 @@ from floatref.measures import iri
 from floatref.measures.valid_iri import profile_iri, valid_stretches
 from floatref.values.display.iri_table import TrackIri
 from floatref.values.profile import Profile, ProfileTrack
+from floatref.values.scanning import CHUNK
 
 INTERVAL = 0.25
 COUNT = 400
@@ -104,3 +107,16 @@ def test_what_has_no_iri_at_all_is_refused(interval_m: float, height: float, tex
     track = ProfileTrack.of("left", np.full(COUNT, height))
     with pytest.raises(InputError, match=text):
         Profile(interval_m, (track,)).iri()
+
+
+def test_a_long_profile_takes_no_memory_that_grows_with_it():
+    valid = np.ones(6_000_000, np.bool_)
+    valid[1000:2000] = False
+    profile = Profile(0.005, (ProfileTrack.of("left", np.zeros(valid.size), valid),))
+    profile_iri(profile)
+    tracemalloc.start()
+    profile_iri(profile)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    # Two pieces of 2 MiB; one flag for each point would be 6 MB.
+    assert peak < 2 * 8 * CHUNK
