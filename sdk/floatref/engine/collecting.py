@@ -12,7 +12,7 @@ from floatref.engine.validity_and_sigma import (
     Reach,
     add_axis_error,
     add_contact_error,
-    valid_points,
+    replace_by_validity,
 )
 from floatref.errors import InputError
 from floatref.interfaces.pipeline import Pipeline
@@ -126,7 +126,7 @@ def collect_profile(
 def _track(
     name: str, found: Gathered, interval_m: float, reach: Reach, resolved: Mapping[str, Any]
 ) -> ProfileTrack:
-    valid, sigma = valid_points(found.flags, interval_m, reach), found.sigma
+    valid, sigma = replace_by_validity(found.flags, interval_m, reach), found.sigma
     if sigma is not None:
         scale = resolved.get("distance_scale_sigma") or 0.0
         add_axis_error(sigma, found.elevation, interval_m, scale)

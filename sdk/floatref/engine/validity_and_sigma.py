@@ -11,6 +11,8 @@ from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray, Index
 
 PIECE = 1 << 18
 """Points processed together, so that memory stays bounded on a long profile."""
+REACHED = np.uint8(0x80)
+"""A bit that no flag has: the point is within reach of a flagged one."""
 PART = 1 << 14
 """Points of a piece whose mean slopes are taken together: their indices are longer than they."""
 
@@ -54,10 +56,12 @@ class Reach:
 
 
 def valid_points(flags: FlagArray, interval_m: float, reach: Reach) -> BoolArray:
-    """Return which points are valid: unflagged, and out of ``reach`` of flagged ones.
+    """Return which points are valid: unflagged, and out of ``reach`` of flagged ones."""
+    return replace_by_validity(flags.copy(), interval_m, reach)
 
-    They take the place of ``flags`` in memory.
-    """
+
+def replace_by_validity(flags: FlagArray, interval_m: float, reach: Reach) -> BoolArray:
+    """Return what `valid_points` does, in the memory of ``flags``, which are lost."""
 
     def points(length_m: float) -> int:
         return round(min(length_m / interval_m, flags.size))
@@ -67,20 +71,19 @@ def valid_points(flags: FlagArray, interval_m: float, reach: Reach) -> BoolArray
         (Flag.SLOW, points(reach.before_slow_m), points(reach.after_slow_m)),
         (Flag.BRAKING, 0, points(reach.after_braking_m)),
     )
-    reached = [found for kind in kinds for found in _reached(flags, *kind)]
-    trusted: BoolArray = np.equal(flags, 0, out=flags.view(np.bool_))
+    for flag, before, after in kinds:
+        _spread(flags, flag, before, after)
     run_in = points(reach.run_in_m)
-    for first, end in (*reached, (0, run_in), (flags.size - run_in, flags.size)):
-        trusted[first:end] = False
-    return trusted
+    flags[:run_in] |= REACHED
+    flags[flags.size - run_in :] |= REACHED
+    return np.equal(flags, 0, out=flags.view(np.bool_))
 
 
-def _reached(flags: FlagArray, flag: Flag, before: int, after: int) -> Iterator[tuple[int, int]]:
-    """Yield first and end of the points around those with ``flag``."""
+def _spread(flags: FlagArray, flag: Flag, before: int, after: int) -> None:
     for begin in range(0, flags.size, PIECE):
         marked = (flags[begin : begin + PIECE] & np.uint8(flag)) != 0
         for first, last in _groups(marked, before + after + 1):
-            yield max(begin + first - before, 0), begin + last + after + 1
+            flags[max(begin + first - before, 0) : begin + last + after + 1] |= REACHED
 
 
 def _groups(marked: BoolArray, apart: int) -> Iterator[tuple[int, int]]:
@@ -156,8 +159,7 @@ def _running_sums(
     elevation: FloatArray, lag: int, length_m: float
 ) -> tuple[FloatArray, IndexArray]:
     """Return the sums of the squares of all slopes before each, and how many are known."""
-    steps = elevation[lag:] - elevation[:-lag]
-    steps /= length_m
+    steps = (elevation[lag:] - elevation[:-lag]) / length_m
     there = np.isfinite(steps)
     steps[~there] = 0.0
     steps *= steps

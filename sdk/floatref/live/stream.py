@@ -176,9 +176,9 @@ class LiveStream(AbstractContextManager["LiveStream"]):
                 # Woken for each piece that leaves, it would share the interpreter all the time.
                 self._changed.wait_for(lambda: self._waiting <= WAITING // 2 or self._error)
             self._raise_error()
-            self._waiting += count
             self._changed.notify_all()
             self._gathering.append_whole(self._queue)
+            self._waiting += count
 
     def _is_idle(self) -> bool:
         return self._error is not None or not (self._queue or self._busy)

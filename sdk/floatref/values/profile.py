@@ -58,8 +58,9 @@ class ProfileTrack:
     ) -> "ProfileTrack":
         """Return a track; without ``valid`` every finite point is valid."""
         z = frozen(elevation)
-        mask = np.ones(z.size, np.bool_) if valid is None else np.array(valid, dtype=np.bool_)
-        return cls.taking(name, z, mask, sigma)
+        mask = np.asarray(True if valid is None else valid, dtype=np.bool_)
+        whole = np.broadcast_to(mask, z.shape) if mask.size == 1 else mask
+        return cls.taking(name, z, np.array(whole), sigma)
 
     @classmethod
     def taking(
@@ -83,7 +84,7 @@ class ProfileTrack:
         # In pieces: a file of an hour is never in memory as a whole.
         if first_where(np.isinf, self.elevation) is not None:
             raise InputError(f"track {self.name}: infinite elevation; mark missing points as NaN")
-        if self.valid.size != n or (self.sigma is not None and self.sigma.size != n):
+        if self.valid.shape != (n,) or (self.sigma is not None and self.sigma.size != n):
             raise InputError(f"track {self.name}: elevation, valid and sigma differ in length")
         if self._validates_nan():
             raise InputError(f"track {self.name}: a point without elevation is marked valid")

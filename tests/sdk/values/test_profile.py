@@ -82,3 +82,21 @@ def test_impossible_profiles_are_refused(changes: dict[str, Any], text: str) -> 
 def test_a_missing_track_is_named_with_those_that_are_there() -> None:
     with pytest.raises(InputError, match="track right: missing; the profile holds left"):
         Profile(0.25, (FLAT,)).track("right")
+
+
+@pytest.mark.parametrize("one", [True, np.bool_(True), [True]])
+def test_one_mark_is_that_of_every_point(one: Any) -> None:
+    assert ProfileTrack.of("left", [0.0, np.nan, 0.0], one).valid.tolist() == [True, False, True]
+
+
+@pytest.mark.parametrize("shape", [(2,), (4,), (1, 3), (3, 1), (0,)])
+def test_marks_of_another_shape_are_refused(shape: tuple[int, ...]) -> None:
+    with pytest.raises(InputError, match="elevation, valid and sigma differ in length"):
+        ProfileTrack.of("left", [0.0, np.nan, 0.0], np.ones(shape, np.bool_))
+
+
+def test_marks_that_were_given_stay_as_they_are() -> None:
+    marks = np.ones(3, np.bool_)
+    ProfileTrack.of("left", [0.0, np.nan, 0.0], marks)
+    assert marks.all()
+    assert marks.flags.writeable

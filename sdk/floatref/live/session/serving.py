@@ -88,8 +88,10 @@ class Serving:
             self._end(str(error), None if self.greeted else HELLO_S)
             raise
         except BaseException as error:
-            self._save()
-            self._end(str(error), ENDING_S)
+            try:
+                self._save()
+            finally:
+                self._end(str(error), ENDING_S)
             raise
         self._end("complete", None)
 

@@ -67,6 +67,23 @@ def test_a_signal_of_a_command_comes_behind_samples_that_are_being_taken(made, l
     run.close()
 
 
+def test_a_signal_while_the_thread_is_woken_leaves_the_count_of_what_waits(made, tmp_path):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    run = live_run.LiveRun(tmp_path / "run", False)
+    list(run.greet(read_message(made[0][0], "line")))
+    stream = run._stream
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(stream._changed, "notify_all", interrupt)
+        with pytest.raises(KeyboardInterrupt):
+            list(run.take(read_message(made[0][1], "line")))
+    assert stream._waiting == 0
+    assert list(run.save())
+    assert run.is_saved
+    run.close()
+
+
 def check_resumes(path, made, live, same):
     messages, expected = made
     answers, _ = live.serve(path, messages[:1], resume=True)
