@@ -9,11 +9,12 @@ ratios, where the time of the stage goes, and how long whole processes take to s
 ``python tests/benchmarks/bench_kalman_memory.py --pipeline road-prior-smoother``.
 """
 
-import cProfile
 import importlib.util
 import sys
+import time
 from collections import Counter
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import road_prior_peers as peers
@@ -24,6 +25,7 @@ from timing import RATE_HZ, in_turns, line, ratio, report_peer, report_start
 
 import floatref
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
+from floatref.kernels.compiling import Kernel
 from floatref.stages.signals import REFERENCE_HEIGHT
 from floatref.values.channels import ChannelId
 from floatref_conformance.proving_ground.scenario import Scenario, scenario_of_run
@@ -45,9 +47,8 @@ SHORT = Scenario(
 )
 """Its first four seconds are what the peers filter."""
 PARTS = {
-    "road_prior.py": "filter forward",
+    "forward.py": "filter forward",
     "backward.py:smooth": "smoother backward",
-    "between_nodes.py": "smoother backward",
     "backward.py:correct": "smoother backward",
     "backward.py:closed_loop": "1-sigma, lag",
     "covariance.py": "1-sigma, lag",
@@ -75,18 +76,28 @@ def report_stage(name: str, recording: floatref.Recording) -> None:
 
 def parts(prepared: Prepared) -> Counter[str]:
     """Return what share of the stage's time each of `PARTS` takes, and the rest."""
-    profile = cProfile.Profile()
-    profile.enable()
-    prepared.through(RoadPriorSmoother())
-    profile.disable()
     found: Counter[str] = Counter()
-    for entry in profile.getstats():
-        file, function = getattr(entry.code, "co_filename", ""), getattr(entry.code, "co_name", "")
-        kernel = Path(file).name if "kernels" in file else ""
-        part = PARTS.get(f"{kernel}:{function}", PARTS.get(kernel, "Python and numpy"))
-        found[part] += entry.inlinetime
-    whole = sum(found.values())
+    call = Kernel.__call__
+
+    def timed(kernel: Kernel[..., object], *given: object) -> object:
+        begin = time.perf_counter()
+        made = call(kernel, *given)
+        found[part_of(kernel)] += time.perf_counter() - begin
+        return made
+
+    with mock.patch.object(Kernel, "__call__", timed):
+        begin = time.perf_counter()
+        prepared.through(RoadPriorSmoother())
+        whole = time.perf_counter() - begin
+    found["Python and numpy"] = whole - found.total()
     return Counter({part: own / whole for part, own in found.items()})
+
+
+def part_of(kernel: Kernel[..., object]) -> str:
+    """Return what a kernel is for."""
+    code = kernel.py_func.__code__
+    file = Path(code.co_filename).name
+    return PARTS.get(f"{file}:{code.co_name}", PARTS.get(file, "other kernels"))
 
 
 def report_peers() -> None:
