@@ -8,6 +8,7 @@ from tests.sdk.c.level_runs import COUNT_M, DISTANCE, FORCE, HEIGHT, RATE, TRACK
 
 from floatref import AxleSetup, Setup, TrackSetup
 from floatref.estimators.laser_place import HeightByModel
+from floatref.estimators.laser_place.by_model import RAISED
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import ChannelId
 
@@ -64,4 +65,4 @@ def model_by_sdk(run, stop, rate=RATE):
     for name, read in ((FORCE, run.force), (HEIGHT, run.height)):
         values |= {ChannelId(name, track): read[:, k].copy() for k, track in enumerate(TRACKS)}
     stage.survey(Block(0, values))
-    return stage.find_pitch(stage.whole_bins())
+    return stage.find_pitch(stage.whole_bins())[RAISED]

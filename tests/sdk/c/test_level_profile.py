@@ -6,7 +6,9 @@ from tests.sdk.c.level_runs import COUNT_M, FORCE, HEIGHT, RATE, TRACKS, level, 
 from tests.sdk.c.level_stops import Stop
 
 from floatref import AxleSetup, Setup, TrackSetup, process
-from floatref.estimators.road_slope.stage import LevelByRoad
+from floatref.estimators.laser_place.by_model import RAISED
+from floatref.estimators.road_slope.stage import ADDED, LevelByRoad
+from floatref.stages.signals import LEVELLING_SIGMA
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording
 
@@ -41,11 +43,11 @@ def test_what_is_added_makes_the_profile_of_the_sdk(double, stop, monkeypatch):
     by_sdk, sigmas = LevelByRoad.find_pitch, []
 
     def find_pitch(self, bins):
-        places = np.arange(by_sdk(self, bins).size)
-        at = found["first"] / (RATE / 100.0)
-        self.memory["added"] = np.interp(places, at, found["added"])
-        sigmas.append(self.memory["levelled"].sigma_m.max())
-        return np.interp(places, at, found["sin_pitch"])
+        known = by_sdk(self, bins)
+        sigmas.append(known[LEVELLING_SIGMA].max())
+        places, at = np.arange(known[RAISED].size), found["first"] / (RATE / 100.0)
+        ours = {ADDED: found["added"], RAISED: found["sin_pitch"]}
+        return known | {name: np.interp(places, at, values) for name, values in ours.items()}
 
     monkeypatch.setattr(LevelByRoad, "find_pitch", find_pitch)
     ours = process(recording, pipeline="road-prior-smoother")

@@ -1,13 +1,12 @@
 """The height carried to the accelerometer by a pitch that the road under the axles explains."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 
 from floatref.errors import InputError
+from floatref.estimators.laser_place.bins import Bins, BinsAhead, nothing
 from floatref.estimators.laser_place.pitching import Places, model_pitch
 from floatref.estimators.laser_place.travelled import Travelled
 from floatref.estimators.levelling.lines import Means
@@ -15,34 +14,14 @@ from floatref.stages.conditioning import SPECIFIC_FORCE
 from floatref.stages.marks import flags_of
 from floatref.stages.protocol import Declared, Stage
 from floatref.stages.signals import DISTANCE, HEIGHT
-from floatref.values.arrays import Flag, FloatArray, frozen
+from floatref.values.arrays import Flag, FloatArray
 from floatref.values.block import Axis, Block, Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 
 BINS_HZ = 100.0
 """Readings per second of the model, for pitch up to 20 Hz."""
-
-
-@dataclass(eq=False)
-class Bins:
-    """Rows of a whole run as ``means`` over bins; ``parts`` are those that are complete."""
-
-    means: Means
-    parts: list[FloatArray] = field(default_factory=list)
-
-    def add(self, *rows: FloatArray) -> None:
-        """Add the samples of ``rows``, each of shape (n,)."""
-        self.parts.append(self.means.take(rows))
-
-    def take(self) -> FloatArray:
-        """Return all bins, shape (rows, bins), without a last one that is cut short.
-
-        The mean of a few samples lies before the middle of their bin, which is a brake to whoever
-        differentiates the distance. A run shorter than a bin has that one.
-        """
-        bins = np.concatenate(self.parts, axis=1)
-        self.parts = []
-        return bins if bins.shape[1] else self.means.rest()
+RAISED = "raised"
+"""Name of sin θ, by which a sensor 1 m ahead is higher."""
 
 
 class HeightByModel(Stage):
@@ -76,7 +55,7 @@ class HeightByModel(Stage):
         self._header = header
         self._every = max(1, round(1.0 / (BINS_HZ * header.step)))
         bins, miscounted = (Bins(Means(self._every, rows)) for rows in (len(own) + 1, 1))
-        self.memory = {"bins": bins, "miscounted": miscounted, "begin": None, "raised": None}
+        self.memory = {"bins": bins, "miscounted": miscounted, "begin": None, "ahead": None}
         return header
 
     def survey(self, block: Block) -> None:
@@ -100,10 +79,11 @@ class HeightByModel(Stage):
         """Carry the heights of the block."""
         if len(block) == 0:
             return block
-        if self.memory["raised"] is None:
-            self.memory["raised"] = self.find_pitch(self.whole_bins())
+        if self.memory["ahead"] is None:
+            found = self.find_pitch(self.whole_bins())
+            self.memory["ahead"] = BinsAhead(found, self.memory["begin"], self._every)
         values, flags = {}, {}
-        raised = self.between_bins(block, self.memory["raised"])
+        raised = self.between_bins(block, RAISED)
         for track, lever_m in self.levers_m.items():
             height = ChannelId(HEIGHT, track)
             if lever_m:
@@ -118,27 +98,20 @@ class HeightByModel(Stage):
         bins: Bins = self.memory["bins"]
         return bins.take()
 
-    def between_bins(self, block: Block, bins: FloatArray) -> FloatArray:
-        """Return the lines through ``bins`` at the samples of ``block``, shape (n,).
+    def between_bins(self, block: Block, name: str) -> FloatArray:
+        """Return the lines through what was found under ``name`` at the samples of ``block``."""
+        ahead: BinsAhead = self.memory["ahead"]
+        return ahead.at(name, block.first, len(block))
 
-        They are `nothing` where all of them are zero.
+    def find_pitch(self, bins: FloatArray) -> dict[str, FloatArray]:
+        """Return what is found of every bin of all that was surveyed, rows as in `rows`.
+
+        That is sin θ under the name `RAISED`.
         """
-        from floatref.estimators.levelling import kernel
-
-        first = block.first - self.memory["begin"]
-        low = max(0, first // self._every - 1)
-        # Most of a run is far from any stop, where nothing is to be added.
-        if not bins[low : (first + len(block)) // self._every + 2].any():
-            return nothing(len(block))
-        found = np.empty(len(block))
-        kernel.between_bins(bins, first, self._every, found)
-        return found
-
-    def find_pitch(self, bins: FloatArray) -> FloatArray:
-        """Return sin θ of every bin of all that was surveyed, rows as in `rows`."""
         force, height = middle(bins[:-1:2]) - STANDARD_GRAVITY, middle(bins[1:-1:2])
         travelled = self.take_travelled(bins)
-        return np.sin(model_pitch(force, height, travelled.distance, self.places()))
+        pitch = model_pitch(force, height, travelled.distance, self.places())
+        return {RAISED: np.sin(pitch)}
 
     def take_travelled(self, bins: FloatArray) -> Travelled:
         """Return the travel in all ``bins``, rows as in `rows`."""
@@ -157,12 +130,6 @@ class HeightByModel(Stage):
         laser_m = at_m + float(np.mean([self.levers_m[t] for t in tracks]))
         step = self._every * self._header.step
         return Places(at_m, laser_m, setup.axles_about(tracks[0]), step)
-
-
-@lru_cache(maxsize=4)
-def nothing(count: int) -> FloatArray:
-    """Return ``count`` zeros, the same for all: blocks that wait hold them once."""
-    return frozen(np.zeros(count))
 
 
 def middle(rows: FloatArray) -> FloatArray:

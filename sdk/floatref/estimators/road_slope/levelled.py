@@ -56,7 +56,8 @@ class Levelled:
     @classmethod
     def of(cls, drive: Drive, places: Places, model: SlopeModel, wavelength_m: float) -> "Levelled":
         """Fit every stretch of ``drive`` and blend those that share their ends."""
-        share, pitch, lean, grade, sigma, fitted = np.zeros((6, drive.force.size))
+        # Each an array of its own: those that are done with are let go.
+        share, pitch, lean, grade, sigma, fitted = (np.zeros(drive.force.size) for _ in range(6))
         found = cls(share, pitch, lean, grade, sigma, [])
         for pieces in find_stretches(drive):
             inside = slice(pieces[0].start, pieces[-1].stop)

@@ -1,12 +1,12 @@
 """The stage that gives the smoother what a level accelerometer would read through a stop."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from floatref.estimators.laser_place import pitching
-from floatref.estimators.laser_place.by_model import HeightByModel, middle, nothing
+from floatref.estimators.laser_place.bins import nothing
+from floatref.estimators.laser_place.by_model import RAISED, HeightByModel, middle
 from floatref.estimators.laser_place.pitching import model_pitch, second_derivative
 from floatref.estimators.road_prior.constants import LEVELLED_LEAN, RoadPrior
 from floatref.estimators.road_prior.learned import Brake, pool
@@ -20,10 +20,9 @@ from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray
 from floatref.values.block import Block, Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 
-if TYPE_CHECKING:
-    from floatref.estimators.road_slope.levelled import Levelled
-
 SHARE, SIGMA = ChannelId(LEVELLED), ChannelId(LEVELLING_SIGMA)
+ADDED = "added"
+"""Name of what the forces have to be raised by, in m/s²."""
 
 
 class LevelByRoad(HeightByModel):
@@ -49,7 +48,7 @@ class LevelByRoad(HeightByModel):
     def open(self, header: Header) -> Header:
         """Ask for force and height of every track and the encoder, in time."""
         out = super().open(header).adding(SHARE, SIGMA)
-        self.memory["added"] = self.memory["levelled"] = None
+        self.memory["gains"] = []
         return out
 
     def advance(self, block: Block) -> Block:
@@ -57,10 +56,8 @@ class LevelByRoad(HeightByModel):
         block = super().advance(block)
         if len(block) == 0:
             return block.setting({SHARE: np.empty(0), SIGMA: np.empty(0)}, {})
-        added, found = self.memory["added"], self.memory["levelled"]
-        known = {SHARE: found.share, SIGMA: found.sigma_m}
-        values = {name: self.between_bins(block, bins) for name, bins in known.items()}
-        more, flags = self.between_bins(block, added), {}
+        values = {c: self.between_bins(block, c.name) for c in (SHARE, SIGMA)}
+        more, flags = self.between_bins(block, ADDED), {}
         for track in self.levers_m:
             force, height = ChannelId(SPECIFIC_FORCE, track), ChannelId(HEIGHT, track)
             if more is not nothing(len(block)):
@@ -70,12 +67,10 @@ class LevelByRoad(HeightByModel):
 
     def list_learned(self) -> Mapping[str, float]:
         """Return the estimate of lean and tilt from all stretches, see `learned.pool`."""
-        found: Levelled | None = self.memory["levelled"]
-        gains = [] if found is None else found.gains
-        return pool([Brake(*each) for each in gains], self.constants)
+        return pool([Brake(*each) for each in self.memory["gains"]], self.constants)
 
-    def find_pitch(self, bins: FloatArray) -> FloatArray:
-        """Return sin θ of every bin, and keep what the forces have to be raised by."""
+    def find_pitch(self, bins: FloatArray) -> dict[str, FloatArray]:
+        """Return sin θ of every bin, what its forces have to be raised by, and how sure that is."""
         # It loads the sparse matrices of scipy, which no other pipeline needs.
         from floatref.estimators.road_slope.levelled import Levelled
 
@@ -90,8 +85,9 @@ class LevelByRoad(HeightByModel):
         expected = -LEVELLED_LEAN * self.constants.lean_expected_rad
         along = found.share * drive.along * (pitch + lean - found.grade - expected)
         climb = 0.5 * STANDARD_GRAVITY * (np.square(pitch + lean) - np.square(lean))
-        self.memory["added"], self.memory["levelled"] = along + climb, found
-        return np.sin(pitch)
+        self.memory["gains"] = found.gains
+        known = {LEVELLED: found.share, LEVELLING_SIGMA: found.sigma_m}
+        return {RAISED: np.sin(pitch), ADDED: along + climb, **known}
 
     def _drive(self, bins: FloatArray) -> Drive:
         """Return the mean of the wheel paths, without a value where one of them is unknown."""

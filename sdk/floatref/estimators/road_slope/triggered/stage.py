@@ -5,12 +5,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from floatref.estimators.laser_place.by_model import Bins, HeightByModel, trusted
+from floatref.estimators.laser_place.bins import Bins
+from floatref.estimators.laser_place.by_model import RAISED, HeightByModel, trusted
 from floatref.estimators.laser_place.pitching import LEAST_SAMPLES, model_pitch
 from floatref.estimators.levelling.lines import Means
 from floatref.estimators.road_prior.excitation import Excitation
 from floatref.estimators.road_slope.readings import Drive
-from floatref.estimators.road_slope.stage import LevelByRoad, from_laser
+from floatref.estimators.road_slope.stage import ADDED, LevelByRoad, from_laser
 from floatref.stages.marks import flags_of
 from floatref.stages.signals import ACCELERATION, EXPECTED_ROAD, LEVELLING_SIGMA, MISSING_SHARE
 from floatref.values.arrays import Flag, FlagArray, FloatArray
@@ -40,7 +41,7 @@ class LevelTriggered(LevelByRoad):
         """Ask for acceleration and height of every track, the encoder and the missing share."""
         header.require(self.name, UNKNOWN)
         out = HeightByModel.open(self, header).adding(SIGMA, ROAD)
-        self.memory |= dict.fromkeys(("added", "levelled", "share", "road"))
+        self.memory["share"] = None
         self.memory["bins"] = Bins(Means(self._every, 3 * len(header.tracks) + 2))
         return out
 
@@ -68,8 +69,8 @@ class LevelTriggered(LevelByRoad):
             found += [force, np.divide(height, known, out=nothing, where=known > 0.0)]
         return np.stack([*found, distance])
 
-    def find_pitch(self, bins: FloatArray) -> FloatArray:
-        """Return sin θ of every bin, and keep what the accelerations have to be raised by."""
+    def find_pitch(self, bins: FloatArray) -> dict[str, FloatArray]:
+        """Return sin θ of every bin, what its accelerations have to be raised by, and the road."""
         from floatref.estimators.road_slope.triggered.expected_road import (
             ExpectedRoad,
             LevelledRoad,
@@ -86,19 +87,18 @@ class LevelTriggered(LevelByRoad):
         by_road = found.share * along * (pitch - found.gain * response - found.grade)
         climb = 0.5 * STANDARD_GRAVITY * (np.square(pitch + lean) - np.square(lean))
         road = ExpectedRoad.of(found.slope, drive.distance, drive.step)
-        self.memory["added"] = by_road + climb - road.acceleration
-        self.memory["levelled"], self.memory["road"] = found, road.elevation
-        return np.sin(pitch)
+        self.memory["share"] = None
+        known = {LEVELLING_SIGMA: found.sigma_m, EXPECTED_ROAD: road.elevation}
+        return {RAISED: np.sin(pitch), ADDED: by_road + climb - road.acceleration, **known}
 
     def advance(self, block: Block) -> Block:
         """Level the accelerations of the block, take the road out, and carry its heights."""
         block = HeightByModel.advance(self, block)
         if len(block) == 0:
             return block.setting({SIGMA: np.empty(0), ROAD: np.empty(0)}, {})
-        known = {SIGMA: self.memory["levelled"].sigma_m, ROAD: self.memory["road"]}
-        values = {name: self.between_bins(block, bins) for name, bins in known.items()}
+        values = {c: self.between_bins(block, c.name) for c in (SIGMA, ROAD)}
         # Where a share of the acceleration is missing, it is less by that share.
-        more = self.between_bins(block, self.memory["added"]) * (1.0 - block[UNKNOWN])
+        more = self.between_bins(block, ADDED) * (1.0 - block[UNKNOWN])
         flags = {}
         for force, height in map(self.own, self.levers_m):
             values[force] = block[force] + more
