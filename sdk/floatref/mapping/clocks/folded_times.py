@@ -42,9 +42,10 @@ class Unfolding:
         there = ticks if known.all() else ticks[known]
         if not there.size or (self._turn is None and not self._leaps):
             return ticks
-        if np.isnan(self._last):
-            self._first = self._last = float(there[0])
+        # No step leads to the first tick of all.
         steps = np.diff(np.asarray(there, np.float64), prepend=self._last)
+        if np.isnan(self._last):
+            self._first = float(there[0])
         self._add_turns(steps) if self._turn is not None else self._add_leaps(there, steps)
         self._last = float(there[-1])
         if not self._added.any():
@@ -77,8 +78,6 @@ class Unfolding:
         """Add a second from the tick on that comes again at a leap second."""
         forth = steps[steps > 0]
         self._usual = float(np.median(forth)) if forth.size else self._usual
-        if self._first == self._last:
-            steps[0] = self._usual
         self._added = np.full(there.size, self._added[-1])
         before = NEAR_S * self._second
         behind = max(before, self._usual)

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from floatref.mapping.clocks.folded_times import Unfolding
@@ -36,6 +36,8 @@ def unfold(clock: NativeClock, ticks: np.ndarray, at: list[int]) -> tuple[np.nda
     real=st.booleans(),
     origin_s=st.sampled_from([0, 900_000_000]),
 )
+# The first piece has a single row, and time goes back behind it.
+@example(number=0, step=1, before=1, ahead_ms=0, seconds="59", cut=[1], real=False, origin_s=0)
 def test_a_leap_second_is_counted_whichever_second_comes_again(
     number: int,
     step: int,
