@@ -49,7 +49,7 @@ def leave_out_steps_back(recording: Recording) -> Forward:
     doubts: list[Doubt] = []
     lines: list[str] = []
     for channel in (c for c in recording.channels if c.id.name == DISTANCE):
-        behind = stretches_behind(channel.values)
+        behind = stretches_behind(channel)
         if not behind.size or np.diff(behind).sum() > MOST * channel.values.size:
             continue
         values = np.array(channel.values)

@@ -10,7 +10,7 @@ from floatref.stages.signals import DISTANCE, HEIGHT
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.clock import StampedClock
 from floatref.values.recording import Channel, Recording
-from floatref.values.scanning import chunks, median_step
+from floatref.values.scanning import median_step
 
 
 def height_gaps(recording: Recording, track: str, gone: IndexArray) -> FloatArray:
@@ -23,16 +23,17 @@ def height_gaps(recording: Recording, track: str, gone: IndexArray) -> FloatArra
     """
     height = recording.channel(HEIGHT, track)
     distance = recording.channel(DISTANCE, track)
-    spans = merge(np.concatenate([*_missing(height.values), gone]))
+    spans = merge(np.concatenate([*_missing(height), gone]))
     times = np.array([_around(height, *span) for span in spans] + _holes(height))
     times = times.reshape(-1, 2)
     long = times[times[:, 1] - times[:, 0] > BRIDGE_S + 2.0 / height.mean_rate_hz]
     return _at(distance, long[np.argsort(long[:, 0])])
 
 
-def _missing(values: FloatArray) -> Iterator[IndexArray]:
-    """Yield first index and the one behind of stretches of NaN, split at the ends of chunks."""
-    for first, chunk in chunks(values):
+def _missing(channel: Channel) -> Iterator[IndexArray]:
+    """Yield first index and the one behind of stretches of NaN, split where its scan is."""
+    scan = channel.scan
+    for first, chunk in scan.parts(channel.values, scan.missing > 0):
         edges = np.flatnonzero(np.diff(np.isnan(chunk), prepend=False, append=False))
         yield edges.reshape(-1, 2) + first
 

@@ -7,7 +7,6 @@ from floatref.errors import InputError
 from floatref.mapping.reading import Reading
 from floatref.screening.plausibility import examine
 from floatref.values.recording import Channel
-from floatref.values.scanning import Summary
 
 
 def inspect_reading(reading: Reading) -> dict[str, Any]:
@@ -30,7 +29,7 @@ def inspect_reading(reading: Reading) -> dict[str, Any]:
 
 
 def _look(channel: Channel, native: str) -> dict[str, Any]:
-    summary = Summary.of(channel.values)
+    summary = channel.scan.summary
     begin, end = channel.span_s
     return {
         "channel": str(channel.id),

@@ -125,8 +125,8 @@ def _usual_step(channel: Channel) -> float:
 
 
 def _check_range(channel: Channel, limit: float) -> None:
-    at = first_where(lambda values: np.abs(values) > limit, channel.values)
-    if at is not None:
+    if channel.scan.largest > limit:
+        at = first_where(lambda values: np.abs(values) > limit, channel.values) or 0
         raise InputError(
             f"channel {channel.id}: sample {at} is {channel.values[at]:.4g} {channel.unit}, beyond "
             f"{limit:g} {channel.unit}; mark lost samples as NaN, and check unit and axis"

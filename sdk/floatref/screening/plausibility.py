@@ -11,7 +11,8 @@ from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.encoder import check_distance
 from floatref.values.needs import DISTANCE, HEIGHT, VERTICAL_FORCES, Needs, nominal_needs
 from floatref.values.recording import Channel, Recording
-from floatref.values.scanning import Summary, every, first_where, longest_gap
+from floatref.values.scan import Summary
+from floatref.values.scanning import every, first_where, longest_gap
 
 LIMITS = {
     "deflection": (1.0, "if it is in mm, multiply by 0.001"),
@@ -106,7 +107,7 @@ def examine(
 
 
 def _examine(channel: Channel, interval_m: float) -> Iterator[str]:
-    summary = Summary.of(channel.values)
+    summary = channel.scan.summary
     yield from _check_missing(channel, summary)
     name = channel.id.name
     if name in VERTICAL_FORCES:

@@ -35,10 +35,9 @@ def _check_distances(recording: Recording, needed: Sequence[Channel]) -> Iterato
 def _check_speed(recording: Recording) -> Iterator[str]:
     """Yield a warning for a speed by GNSS that no profiler reaches."""
     for channel in recording.channels:
-        if channel.id.name == SECOND_SPEED:
-            at = first_where(lambda values: np.abs(values) > FASTEST_MPS, channel.values)
-            if at is not None:
-                yield (
-                    f"channel {channel.id}: sample {at} is {channel.values[at]:.4g} m/s, faster "
-                    f"than any profiler ({FASTEST_MPS:g} m/s); such samples are not used"
-                )
+        if channel.id.name == SECOND_SPEED and channel.scan.largest > FASTEST_MPS:
+            at = first_where(lambda values: np.abs(values) > FASTEST_MPS, channel.values) or 0
+            yield (
+                f"channel {channel.id}: sample {at} is {channel.values[at]:.4g} m/s, faster "
+                f"than any profiler ({FASTEST_MPS:g} m/s); such samples are not used"
+            )

@@ -9,7 +9,8 @@ from floatref.values.arrays import FloatArray
 from floatref.values.encoder_direction import MOST, check_direction, forward_chunks
 from floatref.values.profile import FARTHEST_M
 from floatref.values.recording import Channel
-from floatref.values.scanning import Summary, chunks, every, first_where
+from floatref.values.scan import Summary
+from floatref.values.scanning import chunks, every, first_where
 
 DISTANCES = ("distance", "wheel_distance", "optical_distance")
 FASTEST_MPS = 90.0
@@ -66,8 +67,8 @@ def check_origins(channels: Iterable[Channel]) -> None:
 
 
 def _check_origin(channel: Channel) -> None:
-    at = first_where(lambda values: np.abs(values) > FARTHEST_M, channel.values)
-    if at is not None:
+    if channel.scan.largest > FARTHEST_M:
+        at = first_where(lambda values: np.abs(values) > FARTHEST_M, channel.values) or 0
         raise InputError(
             f"channel {channel.id}: sample {at} is {channel.values[at]:.10g} m, beyond "
             f"{FARTHEST_M:g} m; subtract an origin, such as the first sample"
@@ -109,7 +110,7 @@ def _check_speed(channel: Channel) -> None:
     stride, times, distance = _thin(channel)
     advance, elapsed, since_s = _speeds(times, distance)
     if (advance > FASTEST_MPS * np.maximum(elapsed, AVERAGED_S)).any():
-        pieces = [x[-first % stride :: stride] for first, x in forward_chunks(channel.values)]
+        pieces = [x[-first % stride :: stride] for first, x in forward_chunks(channel)]
         advance, elapsed, since_s = _speeds(times, np.concatenate(pieces))
     speed = advance / np.maximum(elapsed, AVERAGED_S)
     if (speed > FASTEST_MPS).any():

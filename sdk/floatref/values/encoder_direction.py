@@ -20,7 +20,7 @@ def check_direction(channel: Channel, most: float = MOST) -> None:
 
     Fewer are a fault of their stretches, not a wrong sign.
     """
-    behind = stretches_behind(channel.values)
+    behind = stretches_behind(channel)
     if np.diff(behind).sum() <= most * channel.values.size:
         return
     first, end = behind[0]
@@ -34,13 +34,14 @@ def check_direction(channel: Channel, most: float = MOST) -> None:
     )
 
 
-def stretches_behind(values: FloatArray) -> IndexArray:
+def stretches_behind(channel: Channel) -> IndexArray:
     """Return first index and the one behind of each stretch behind the farthest, shape (k, 2).
 
     Only those that lie behind by more than `ROLLS_BACK_M`, and no single samples that jump and
     return at once. Missing (NaN) samples beside them belong to them.
     """
-    if not _goes_back(values):
+    values = channel.values
+    if _only_grows(channel) or not _goes_back(values):
         return np.empty((0, 2), np.int64)
     spans: list[list[int]] = []
     depths: list[float] = []
@@ -62,14 +63,19 @@ def stretches_behind(values: FloatArray) -> IndexArray:
     return found[np.array(depths) > ROLLS_BACK_M]
 
 
-def forward_chunks(values: FloatArray) -> Iterator[tuple[int, FloatArray]]:
+def forward_chunks(channel: Channel) -> Iterator[tuple[int, FloatArray]]:
     """Yield `chunks` in which `stretches_behind` and single samples that jump are NaN."""
-    behind = stretches_behind(values)
-    for first, chunk in _without_spikes(values):
+    behind = stretches_behind(channel)
+    for first, chunk in _without_spikes(channel.values):
         forward = np.array(chunk)
         for low, high in np.clip(behind - first, 0, chunk.size).tolist():
             forward[low:high] = np.nan
         yield first, forward
+
+
+def _only_grows(channel: Channel) -> bool:
+    """Return whether no sample is missing or below the one before: then none is read again."""
+    return not (channel.scan.missing.any() or channel.scan.fall.any())
 
 
 def _goes_back(values: FloatArray) -> bool:

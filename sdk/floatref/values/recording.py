@@ -1,6 +1,7 @@
 """A recording: the raw channels of one run and the geometry of the sensors."""
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -16,6 +17,7 @@ from floatref.values.display.short_text import join_some, percent, rate_text, sh
 from floatref.values.display.similar_names import hint_at
 from floatref.values.display.views import view
 from floatref.values.installation import ORIGIN, Setup, TrackSetup, Vector, check_interval
+from floatref.values.scan import Scan
 from floatref.values.scanning import first_where
 from floatref.values.vehicle_setup import VehicleSetup
 
@@ -62,11 +64,16 @@ class Channel:
                 f"channel {self.id}: {self.values.size} samples "
                 f"but {self.clock.times_s.size} time stamps"
             )
-        bad = first_where(np.isinf, self.values)
-        if bad is not None:
+        if self.scan.largest == np.inf:
+            bad = first_where(np.isinf, self.values)
             raise InputError(
                 f"channel {self.id}: sample {bad} is infinite; mark missing samples as NaN"
             )
+
+    @cached_property
+    def scan(self) -> Scan:
+        """What the first pass over the samples has found."""
+        return Scan.of(self.values)
 
     @property
     def unit(self) -> str:

@@ -1,7 +1,6 @@
 """Reading long channels in pieces, so that memory stays bounded."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -81,36 +80,6 @@ def first_step_where(
         if met.any():
             return first + int(np.argmax(met)) + 1
     return None
-
-
-@dataclass(frozen=True)
-class Summary:
-    """Statistics of the valid samples of a channel; NaN if no sample is valid."""
-
-    count: int
-    missing: int
-    mean: float
-    least: float
-    greatest: float
-
-    @classmethod
-    def of(cls, values: FloatArray) -> "Summary":
-        """Return the summary of ``values``, shape (N,), NaN being a missing sample."""
-        missing, total, least, greatest = 0, 0.0, np.inf, -np.inf
-        for _, chunk in chunks(values):
-            with np.errstate(over="ignore", invalid="ignore"):
-                # A sum is NaN if a sample is; then alone they have to be chosen.
-                whole = not np.isnan(np.sum(chunk))
-            valid = chunk if whole else chunk[~np.isnan(chunk)]
-            missing += chunk.size - valid.size
-            if valid.size:
-                with np.errstate(over="ignore", invalid="ignore"):
-                    total += float(np.sum(valid))
-                least = min(least, float(valid.min()))
-                greatest = max(greatest, float(valid.max()))
-        if missing == values.size:
-            return cls(values.size, missing, np.nan, np.nan, np.nan)
-        return cls(values.size, missing, total / (values.size - missing), least, greatest)
 
 
 def longest_gap(values: FloatArray) -> tuple[int, int]:

@@ -7,7 +7,7 @@ from typing import Any
 from floatref.measures.valid_segments import SegmentIri
 from floatref.values.display.short_text import percent
 from floatref.values.recording import Recording
-from floatref.values.scanning import Summary
+from floatref.values.scan import Summary
 from floatref.viewer.events import Event
 
 # A phone shows the first columns alone: those that the table is looked at for.
@@ -91,7 +91,7 @@ def channel_table(recording: Recording) -> dict[str, Any]:
     """Return the table of all channels, in SI units; one with missing samples is marked."""
     rows = []
     for channel in recording.channels:
-        summary = Summary.of(channel.values)
+        summary = channel.scan.summary
         figures = [f"{x:.6g}" if isfinite(x) else "–" for x in _figures(summary)]
         missing = percent(summary.missing / summary.count)
         cells = [str(channel.id), channel.unit, f"{channel.mean_rate_hz:.6g}"]

@@ -7,11 +7,12 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from floatref.screening.damage.damaged_samples import Usual, extremes
+from floatref.screening.damage.damaged_samples import Usual
 from floatref.screening.damage.saturation import STAIR, find_saturation
 from floatref.screening.second_sensor.noisier_side import TO_SIGMA, noise_of
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel
+from floatref.values.scan import Scan
 
 RATE, LENGTH, SATURATED = 1000.0, 6000, 5
 laws = settings(max_examples=40, deadline=None)
@@ -72,7 +73,7 @@ def test_cut_off_swings_are_those_of_the_whole_channel(
     force = drawn_force(seed, range_mps2, noise, shake, quantum, hold)
     channel = Channel.of("vertical_specific_force", force, UniformClock.of(RATE), "main")
     expected = find_saturation(channel).gone
-    usual, (least, greatest) = Usual.of(force), extremes(force)
+    usual, (least, greatest) = Usual.of(force), Scan.of(force).extremes
     held = min(usual.hold, Usual.of(force, STAIR * usual.quantum).hold)
     ends = {"range_least": least, "range_greatest": greatest}
     made = double.make("saturation", hold=held, quantum=usual.quantum, **ends)
@@ -113,7 +114,7 @@ def test_spans_without_room_are_refused_and_change_nothing(double):
 def test_what_is_usual_is_what_the_sdk_takes_for_usual(double, seed, noise, quantum, hold):
     force = drawn_force(seed, 15.0, noise, 5.0, quantum, hold)
     expected, found = Usual.of(force), usual_in_c(double, force)
-    assert (found.least, found.greatest) == extremes(force)
+    assert (found.least, found.greatest) == Scan.of(force).extremes
     assert (found.quantum, found.hold_of_holds) == (expected.quantum, expected.hold)
     assert found.hold_of_samples == expected.beside(0)
     assert found.samples == np.count_nonzero(np.isfinite(force))

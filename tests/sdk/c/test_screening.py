@@ -7,11 +7,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from floatref.intake.height_gaps import height_gaps
-from floatref.screening.damage.damaged_samples import Usual, extremes
+from floatref.screening.damage.damaged_samples import Usual
 from floatref.screening.damage.spikes import UNUSUAL, find_spikes
 from floatref.screening.damage.stuck_sensors import find_stuck_force, find_stuck_height
 from floatref.values.clock import UniformClock
 from floatref.values.recording import Channel, Recording, Setup
+from floatref.values.scan import Scan
 
 RATE, COUNT_M, LENGTH = 1000.0, 2.0**-10, 3000
 COUNTS = 10
@@ -123,7 +124,7 @@ def test_a_height_out_of_its_range_is_found_as_in_the_whole_recording(double, se
     for end, first, length in stays:
         height[first : first + length] = end
     channels = (Channel.of("height", height, channels[0].clock, "main"), *channels[1:])
-    least, greatest = extremes(height)
+    least, greatest = Scan.of(height).extremes
     assert Usual.of(height).beside(0) == 1.0
     ends = {"range_least": least, "range_greatest": greatest}
     found = through_c(double, (height, force, counts), [0, cut, LENGTH], **ends)

@@ -58,7 +58,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
         counted(imu_and_gnss, name, name)
     counted(imu_and_gnss.Motion, "of", "Motion.of")
     counted(Travel, "of", "Travel.of")
-    counted(plausibility.Summary, "of", "Summary.of")
+    counted(plausibility, "_examine", "examined")
     return counts
 
 
@@ -68,12 +68,12 @@ def test_a_run_finds_out_everything_once(calls: Counter[str]) -> None:
     assert {name: calls[name] for name in PER_TRACK} == dict.fromkeys(PER_TRACK, len(TRACKS))
     assert calls["Motion.of"] == len(TRACKS)
     assert calls["check_plausible_rates"] == calls["Travel.of"] == 1
-    assert calls["Summary.of"] == 1 + 2 * len(TRACKS)
+    assert calls["examined"] == 1 + 2 * len(TRACKS)
 
 
 def test_a_nominal_run_asks_nothing_of_the_imu(calls: Counter[str]) -> None:
     run.run(driven(), "temporal-basic")
-    assert calls == {"gnss_faults": 1, "Travel.of": 1, "Summary.of": 1 + 2 * len(TRACKS)}
+    assert calls == {"gnss_faults": 1, "Travel.of": 1, "examined": 1 + 2 * len(TRACKS)}
 
 
 def test_the_next_run_of_a_recording_computes_nothing_again(calls: Counter[str]) -> None:
@@ -91,7 +91,7 @@ def test_a_fall_back_examines_what_is_new_to_it(calls: Counter[str]) -> None:
     assert sum("response-joint-input-state" in line for line in result.warnings) == len(TRACKS)
     assert calls["gnss_faults"] == calls["Travel.of"] == 1
     # The distance once; force and height of the wheel path; of its response, three channels.
-    assert calls["Summary.of"] == 1 + 2 * len(TRACKS) + 3 * len(TRACKS)
+    assert calls["examined"] == 1 + 2 * len(TRACKS) + 3 * len(TRACKS)
 
 
 def test_what_another_recording_showed_is_not_taken_for_this_one() -> None:

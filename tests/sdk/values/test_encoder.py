@@ -11,7 +11,6 @@ from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.encoder import DISTANCES, check_distance, check_origins
 from floatref.values.encoder_direction import stretches_behind
 from floatref.values.recording import Channel, Clock
-from floatref.values.scanning import Summary
 
 RATE = 1000.0
 COUNT = 4000
@@ -20,7 +19,7 @@ few = settings(deadline=None, max_examples=40)
 
 def warned(values: np.ndarray, interval_m: float, clock: Clock | None = None) -> tuple[str, ...]:
     channel = Channel.of("distance", values, clock or UniformClock.of(RATE))
-    return tuple(check_distance(channel, Summary.of(channel.values), interval_m))
+    return tuple(check_distance(channel, channel.scan.summary, interval_m))
 
 
 def travel(speed: float) -> np.ndarray:
@@ -134,4 +133,4 @@ def test_a_sample_that_comes_back_at_once_is_no_step_back(at, height, up, chunk)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scanning, "CHUNK", chunk)
         assert warned(values, 0.1) == ()
-        assert stretches_behind(values).size == 0
+        assert stretches_behind(Channel.of("distance", values, UniformClock.of(RATE))).size == 0

@@ -48,8 +48,8 @@ def test_a_step_back_is_found_wherever_the_chunks_end(
     end = at + int(ahead[0]) if ahead.size else COUNT
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scanning, "CHUNK", chunk)
-        np.testing.assert_array_equal(stretches_behind(values), [[at - gap, end]])
-        forward = np.concatenate([each for _, each in forward_chunks(values)])
+        np.testing.assert_array_equal(stretches_behind(distance(values)), [[at - gap, end]])
+        forward = np.concatenate([each for _, each in forward_chunks(distance(values))])
         if 2 * (end - at + gap) > COUNT:
             with pytest.raises(InputError, match=f"channel distance: sample {at} goes back by"):
                 check_direction(distance(values))
@@ -68,7 +68,7 @@ def test_only_what_lies_farther_back_than_a_vehicle_rolls_counts(
     values = travel()
     end = min(at + length, COUNT)
     values[at:end] = values[at - 1] - depth_m
-    found = stretches_behind(values)
+    found = stretches_behind(distance(values))
     if depth_m <= ROLLS_BACK_M:
         assert found.size == 0
     elif end - at > 1:
@@ -78,7 +78,7 @@ def test_only_what_lies_farther_back_than_a_vehicle_rolls_counts(
 def test_a_distance_that_never_goes_back_has_no_stretch_whatever_is_missing() -> None:
     values = travel()
     values[:10] = values[500:900] = values[-3:] = np.nan
-    assert stretches_behind(values).shape == (0, 2)
+    assert stretches_behind(distance(values)).shape == (0, 2)
 
 
 def test_a_second_distance_may_not_go_back_at_all() -> None:

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from floatref.values.clock import StampedClock, UniformClock
 from floatref.values.encoder import FASTEST_MPS, SLOWEST_MPS, check_distance
 from floatref.values.recording import Channel, Clock
-from floatref.values.scanning import Summary
 
 INTERVAL_M = 0.001
 LARGEST_UNITS = {"km": 1000.0, "miles": 1609.344}
@@ -23,7 +22,7 @@ few = settings(deadline=None, max_examples=60)
 def suspects(values: np.ndarray, clock: Clock) -> list[str]:
     """Return the warnings that name km."""
     channel = Channel.of("distance", values, clock)
-    lines = check_distance(channel, Summary.of(channel.values), INTERVAL_M)
+    lines = check_distance(channel, channel.scan.summary, INTERVAL_M)
     return [line for line in lines if "if the distance is in km" in line]
 
 

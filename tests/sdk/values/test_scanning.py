@@ -8,7 +8,6 @@ from hypothesis.extra import numpy as npst
 
 from floatref.values import scanning
 from floatref.values.scanning import (
-    Summary,
     chunks,
     every,
     first_step_where,
@@ -70,18 +69,6 @@ def test_the_first_sample_and_step_are_those_of_the_whole(values: np.ndarray) ->
     assert first_where(np.isnan, values) == (places[0] if places else None)
     falls = [k for k in range(1, values.size) if values[k] < values[k - 1]]
     assert first_step_where(lambda steps: steps < 0, values) == (falls[0] if falls else None)
-
-
-@given(SAMPLES)
-@PIECES
-def test_the_summary_is_that_of_the_whole(values: np.ndarray) -> None:
-    found, valid = Summary.of(values), values[~np.isnan(values)]
-    assert (found.count, found.missing) == (values.size, values.size - valid.size)
-    if valid.size:
-        assert found.mean == pytest.approx(valid.mean(), abs=1e-12)
-        assert (found.least, found.greatest) == (valid.min(), valid.max())
-    else:
-        assert np.isnan([found.mean, found.least, found.greatest]).all()
 
 
 @given(SAMPLES)

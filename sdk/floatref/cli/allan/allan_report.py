@@ -11,7 +11,6 @@ from floatref.measures.allan.at_rest import ChannelNoise
 from floatref.measures.allan.noise_fit import NoiseCoefficients
 from floatref.values.display.similar_names import suggest
 from floatref.values.recording import Channel, Recording
-from floatref.values.scanning import Summary
 
 ANALYSED = (
     *("roll_rate", "pitch_rate", "yaw_rate"),
@@ -129,7 +128,7 @@ def check_stationary(recording: Recording) -> Iterator[str]:
     """Yield warnings about a recording that was not, or not completely, made at rest."""
     for channel in recording.channels:
         if channel.id.name == "distance":
-            summary = Summary.of(channel.values)
+            summary = channel.scan.summary
             if summary.greatest - summary.least > TRAVEL_M:
                 yield (
                     f"channel {channel.id}: grows by {summary.greatest - summary.least:.4g} m; if "

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from floatref.errors import InputError
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Channel
-from floatref.values.scanning import Summary, every
+from floatref.values.scanning import every
 
 TOLERANCES: Mapping[str, float] = {
     "unsprung_specific_force": 5.0,
@@ -116,7 +116,7 @@ def check_limits(channel: Channel) -> None:
     limit = LIMITS.get(channel.id.name)
     if limit is None:
         return
-    summary = Summary.of(channel.values)
+    summary = channel.scan.summary
     size = max(summary.greatest, -summary.least)
     if size > limit.most:
         raise InputError(_describe("a sample", size, channel.unit, limit))

@@ -14,7 +14,8 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray, IndexArray
-from floatref.values.scanning import Summary, chunks
+from floatref.values.scan import Scan, Summary
+from floatref.values.scanning import chunks
 
 PER_DECADE = 20
 """Cluster times in a decade, where samples allow it."""
@@ -109,7 +110,7 @@ def _summary(values: FloatArray, interval_s: float) -> Summary:
         raise InputError(
             f"{values.size} samples of shape {values.shape}; give one row of {FEWEST} or more"
         )
-    summary = Summary.of(values)
+    summary = Scan.of(values).summary
     if summary.missing:
         raise InputError(f"{summary.missing} of {values.size} samples are missing; cut them away")
     greatest = max(summary.greatest, -summary.least)

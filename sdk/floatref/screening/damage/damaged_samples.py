@@ -132,15 +132,6 @@ class Usual:
         return float(middle) if middle < counts.size - 1 else np.inf
 
 
-def extremes(values: FloatArray) -> tuple[float, float]:
-    """Return the smallest and the largest of the samples that are not missing."""
-    least, greatest = np.inf, -np.inf
-    for _, chunk in chunks(values):
-        least = np.fmin(least, np.fmin.reduce(chunk))
-        greatest = np.fmax(greatest, np.fmax.reduce(chunk))
-    return float(least), float(greatest)
-
-
 def describe_damage(channel: Channel, spans: IndexArray, what: str) -> str:
     """Return one line on the damage ``what`` in ``spans`` of ``channel``."""
     lengths = spans[:, 1] - spans[:, 0]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, describe_damage, extremes
+from floatref.screening.damage.damaged_samples import Damage, Runs, Usual, describe_damage
 from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.recording import Channel
@@ -31,7 +31,7 @@ BESIDE = 250
 
 def find_saturation(channel: Channel) -> Damage:
     """Return the stretches in which an accelerometer is at the end of its range."""
-    least, greatest = extremes(channel.values)
+    least, greatest = channel.scan.extremes
     low = least if least <= STANDARD_GRAVITY - OUTERMOST else -np.inf
     high = greatest if greatest >= STANDARD_GRAVITY + OUTERMOST else np.inf
     if low == -high:

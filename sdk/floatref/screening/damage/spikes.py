@@ -7,7 +7,7 @@ from floatref.values.arrays import FloatArray, IndexArray
 from floatref.values.channels import STANDARD_GRAVITY
 from floatref.values.needs import FORCE, HEIGHT
 from floatref.values.recording import Channel
-from floatref.values.scanning import chunks, take
+from floatref.values.scanning import take
 
 SLOWEST_HZ = 1000.0
 """At this rate and above, an accelerometer's own bandwidth spreads a shock over several samples."""
@@ -34,13 +34,13 @@ def find_spikes(channel: Channel) -> Damage:
     if least is None or channel.mean_rate_hz < SLOWEST_HZ or channel.values.size < 3:
         return Damage()
     values = channel.values
-    steep = {first for first, part in chunks(values, overlap=2) if _leaps(part, least)}
-    if not steep:
+    # On most channels no step is as large as a spike, and none is read again.
+    steep = channel.scan.leap > least
+    if not steep.any():
         return Damage()
     least = max(least, UNUSUAL * _usual(values))
-    # A second reading: pieces that are kept from the first would keep their file in memory.
-    again = ((first, part) for first, part in chunks(values, overlap=2) if first in steep)
-    at = np.concatenate([first + 1 + _spikes(part, least) for first, part in again])
+    parts = channel.scan.parts(values, steep, overlap=2)
+    at = np.concatenate([first + 1 + _spikes(part, least) for first, part in parts])
     if not 0 < at.size <= MOST * values.size:
         return Damage()
     spans: IndexArray = np.stack([at, at + 1], axis=1)
@@ -56,12 +56,6 @@ def _usual(values: FloatArray) -> float:
     off = np.abs(here - 0.5 * (before + after))
     off = off[np.isfinite(off) & (off > 0)]
     return float(np.median(off)) if off.size else 0.0
-
-
-def _leaps(part: FloatArray, least: float) -> bool:
-    """Return whether any step is larger than ``least``: on most channels no step is."""
-    steps = np.diff(part)
-    return bool(np.fmax.reduce(np.abs(steps, out=steps), initial=0.0) > least)
 
 
 def _spikes(part: FloatArray, least: float) -> IndexArray:

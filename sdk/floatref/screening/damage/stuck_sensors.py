@@ -9,7 +9,6 @@ from floatref.screening.damage.damaged_samples import (
     Runs,
     Usual,
     describe_damage,
-    extremes,
     merge,
 )
 from floatref.values.arrays import BoolArray, FloatArray
@@ -84,7 +83,7 @@ class _Repeated:
 
     def out_of_range(self) -> BoolArray:
         """Return which runs at the smallest or largest value begin or end with a jump."""
-        extreme = np.isin(self.runs.value, extremes(self.channel.values))
+        extreme = np.isin(self.runs.value, self.channel.scan.extremes)
         pinned: BoolArray = extreme & (self.runs.length >= PINNED * self._beside())
         return pinned & (self._step() >= LEAP_M)
 
