@@ -55,13 +55,11 @@ class Reach:
         )
 
 
-def valid_points(flags: FlagArray, interval_m: float, reach: Reach) -> BoolArray:
-    """Return which points are valid: unflagged, and out of ``reach`` of flagged ones."""
-    return replace_by_validity(flags.copy(), interval_m, reach)
-
-
 def replace_by_validity(flags: FlagArray, interval_m: float, reach: Reach) -> BoolArray:
-    """Return what `valid_points` does, in the memory of ``flags``, which are lost."""
+    """Return which points are valid: unflagged, and out of ``reach`` of flagged ones.
+
+    In the memory of ``flags``, which are lost: a long run has no room for both.
+    """
 
     def points(length_m: float) -> int:
         return round(min(length_m / interval_m, flags.size))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from floatref.engine.validity_and_sigma import Reach, valid_points
+from floatref.engine.validity_and_sigma import Reach, replace_by_validity
 from floatref.kernels import motion
 from floatref.measures.roughness.agreement import cross_correlation
 from floatref.measures.roughness.zero_phase import high_pass_b3x2
@@ -111,7 +111,7 @@ def test_valid_points_are_those_of_the_sdk(build, flags, interval_m, reaches):
     names = "drift_m", "run_in_m", "before_slow_m", "after_slow_m", "after_braking_m"
     reach = dict(zip(names, reaches, strict=True))
     causes = np.array(flags, np.uint8)
-    expected = valid_points(causes, interval_m, Reach(**reach))
+    expected = replace_by_validity(causes.copy(), interval_m, Reach(**reach))
     for library in (build("double"), build("float")):
         config = library.config("validity", interval_m=interval_m, **reach)
         place, written = bytes_at(library, causes), library.ffi.new("size_t *")

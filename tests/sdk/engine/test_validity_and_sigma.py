@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.engine import validity_and_sigma
-from floatref.engine.validity_and_sigma import Reach, add_contact_error, valid_points
+from floatref.engine.validity_and_sigma import Reach, add_contact_error, replace_by_validity
 from floatref.values.arrays import Flag
 
 KINDS = [0, 0, 0, 0, 0, 1, 2, 3, 4, 6, 8, 12]
@@ -38,7 +38,7 @@ def test_a_point_is_valid_without_flags_and_out_of_reach(flags, reach, run_in, p
     metres = Reach(*(0.5 * n for n in (drift, run_in, before, after, braking)))
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(validity_and_sigma, "PIECE", piece)
-        assert valid_points(np.array(flags, np.uint8), 0.5, metres).tolist() == expected
+        assert replace_by_validity(np.array(flags, np.uint8), 0.5, metres).tolist() == expected
 
 
 def test_a_pipeline_without_such_settings_marks_what_its_filter_spreads():
