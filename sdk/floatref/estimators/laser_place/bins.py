@@ -1,5 +1,6 @@
 """Readings and findings of a whole run in bins: what is behind a run is let go."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -7,6 +8,15 @@ import numpy as np
 
 from floatref.estimators.levelling.lines import Means
 from floatref.values.arrays import FloatArray, frozen
+
+PART = 1 << 16
+"""Bins at a time, ten minutes, of which a run is calculated: no more of it is in memory twice."""
+
+
+def in_parts(begin: int, end: int) -> Iterator[slice]:
+    """Yield the bins from ``begin`` to ``end`` in parts of `PART`."""
+    for low in range(begin, end, PART):
+        yield slice(low, min(low + PART, end))
 
 
 @dataclass(eq=False)

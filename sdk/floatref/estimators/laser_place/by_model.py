@@ -134,12 +134,17 @@ class HeightByModel(Stage):
 
 def middle(rows: FloatArray) -> FloatArray:
     """Return the mean of the wheel paths, shape (n,); a path that is unknown is a line there."""
-    places = np.arange(rows.shape[1])
-    known = [row for row in rows if not np.isnan(row).all()]
-    if not known:
-        return np.full(places.size, np.nan)
-    bridged = [np.interp(places, places[~np.isnan(r)], r[~np.isnan(r)]) for r in known]
-    return np.asarray(np.mean(bridged, axis=0))
+    total, count = np.zeros(rows.shape[1]), 0
+    for row in rows:
+        known = np.flatnonzero(~np.isnan(row))
+        if known.size:
+            whole = known.size == row.size
+            total += row if whole else np.interp(np.arange(row.size), known, row[known])
+            count += 1
+    if not count:
+        return np.full(total.size, np.nan)
+    total /= count
+    return total
 
 
 def trusted(block: Block, channel: ChannelId) -> FloatArray:

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from floatref.estimators.laser_place.bins import in_parts
 from floatref.estimators.road_slope.constants import Places, SlopeModel
 from floatref.estimators.road_slope.elevation_sigma import elevation_sigma
 from floatref.estimators.road_slope.gauss_newton import Fit, fit
@@ -56,10 +57,12 @@ class Levelled:
     @classmethod
     def of(cls, drive: Drive, places: Places, model: SlopeModel, wavelength_m: float) -> "Levelled":
         """Fit every stretch of ``drive`` and blend those that share their ends."""
-        # Each an array of its own: those that are done with are let go.
+        stretches = find_stretches(drive)
+        # Each an array of its own, of which only what is written takes memory: most of a run lies
+        # between stretches, and those that are done with are let go.
         share, pitch, lean, grade, sigma, fitted = (np.zeros(drive.force.size) for _ in range(6))
         found = cls(share, pitch, lean, grade, sigma, [])
-        for pieces in find_stretches(drive):
+        for pieces in stretches:
             inside = slice(pieces[0].start, pieces[-1].stop)
             weight = _ramp(inside.stop - inside.start, drive.step)
             fitted[inside] += weight
@@ -69,7 +72,8 @@ class Levelled:
                 continue
             result = fit(Stretch(Readings.of(drive, pieces, model.interval_s), places, model))
             sigma_m = found._take(result, drive, inside, weight, wavelength_m)
-            found.sigma_m[inside] += weight * sigma_m
+            sigma_m *= weight
+            found.sigma_m[inside] += sigma_m
         found._blend(fitted)
         return found
 
@@ -81,16 +85,20 @@ class Levelled:
         sigma_m = _sigma(result, drive.distance[inside], wavelength_m)
         if not is_believed(result):
             return sigma_m * _about_the_slowest(drive, inside, self.unknown_reach_m)
-        self._add(result, inside, weight)
+        for part in in_parts(inside.start, inside.stop):
+            own = slice(part.start - inside.start, part.stop - inside.start)
+            self._add(result, part, weight[own])
         return sigma_m
 
     def _blend(self, fitted: FloatArray) -> None:
         """Make means of the weighted sums; ``fitted`` is the weight of all fits, shape (n,)."""
-        known = np.maximum(self.share, np.finfo(np.float64).tiny)
-        for each in (self.pitch, self.lean, self.grade):
-            each /= known
-        self.sigma_m /= np.maximum(fitted, 1.0)
-        self.share = np.minimum(self.share, 1.0)
+        for part in in_parts(0, fitted.size):
+            if fitted[part].any():
+                known = np.maximum(self.share[part], np.finfo(np.float64).tiny)
+                for each in (self.pitch, self.lean, self.grade):
+                    each[part] /= known
+                self.sigma_m[part] /= np.maximum(fitted[part], 1.0)
+                self.share[part] = np.minimum(self.share[part], 1.0)
 
     def _add(self, result: Fit, inside: slice, weight: FloatArray) -> None:
         """Add one fit with its ``weight`` in the bins ``inside``."""
@@ -103,12 +111,19 @@ class Levelled:
 
     def hold(self, values: FloatArray, outside: FloatArray) -> FloatArray:
         """Return ``values`` where they are known, and ``outside`` bent to meet them elsewhere."""
-        known = np.flatnonzero(self.share > 0.0)
-        if known.size == 0:
+        known = self.share > 0.0
+        if not known.any():
             return outside
-        bins = np.arange(values.size)
-        off = np.interp(bins, known, values[known] - outside[known])
-        return outside + off
+        held, before = np.empty(values.size), np.empty(0, np.int64)
+        for part in in_parts(0, values.size):
+            here = part.start + np.flatnonzero(known[part])
+            rest = known[part.stop :]
+            behind = [part.stop + int(rest.argmax())] if rest.any() else []
+            knots = np.concatenate([before, here, behind]).astype(np.int64)
+            off = np.interp(np.arange(part.start, part.stop), knots, values[knots] - outside[knots])
+            held[part] = outside[part] + off
+            before = here[-1:] if here.size else before
+        return held
 
 
 def _about_the_slowest(drive: Drive, inside: slice, reach_m: float) -> BoolArray:
@@ -142,9 +157,10 @@ def _sigma(result: Fit, distance: FloatArray, wavelength_m: float) -> FloatArray
 def _ramp(size: int, step: float) -> FloatArray:
     """Return weights that rise to 1 at the begin and fall from it at the end, shape (size,)."""
     width = max(1, round(RAMP_S / step))
-    places = np.arange(size)
-    rise = np.minimum(places, places[::-1]) + 1.0
-    return np.minimum(rise / width, 1.0)
+    end = min(width, (size + 1) // 2)
+    weights, rise = np.ones(size), np.arange(1.0, end + 1.0) / width
+    weights[:end], weights[size - end :] = rise, rise[::-1]
+    return weights
 
 
 def known_gains(fits: Sequence[Fit]) -> list[tuple[FloatArray, FloatArray]]:

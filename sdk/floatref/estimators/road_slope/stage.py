@@ -1,11 +1,12 @@
 """The stage that gives the smoother what a level accelerometer would read through a stop."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from floatref.estimators.laser_place import pitching
-from floatref.estimators.laser_place.bins import nothing
+from floatref.estimators.laser_place.bins import in_parts, nothing
 from floatref.estimators.laser_place.by_model import RAISED, HeightByModel, middle
 from floatref.estimators.laser_place.pitching import model_pitch, second_derivative
 from floatref.estimators.road_prior.constants import LEVELLED_LEAN, RoadPrior
@@ -19,6 +20,9 @@ from floatref.stages.signals import HEIGHT, LEVELLED, LEVELLING_SIGMA
 from floatref.values.arrays import BoolArray, Flag, FlagArray, FloatArray
 from floatref.values.block import Block, Header
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
+
+if TYPE_CHECKING:
+    from floatref.estimators.road_slope.levelled import Levelled
 
 SHARE, SIGMA = ChannelId(LEVELLED), ChannelId(LEVELLING_SIGMA)
 ADDED = "added"
@@ -75,19 +79,33 @@ class LevelByRoad(HeightByModel):
         from floatref.estimators.road_slope.levelled import Levelled
 
         drive, places = self._drive(bins), self.places()
+        del bins
         found = Levelled.of(drive, from_laser(places), self._model(), self.wavelength_m)
         pitch = np.zeros(drive.force.size)
         if any(self.levers_m.values()):
             pitch = model_pitch(drive.force, drive.height, drive.distance, places)
+        along = drive.along
+        del drive
         pitch = found.hold(found.pitch, pitch)
         lean = found.hold(found.lean, np.zeros(pitch.size))
+        self.memory["gains"] = found.gains
+        added = self._added(found, along, pitch, lean)
+        known = {LEVELLED: found.share, LEVELLING_SIGMA: found.sigma_m}
+        return {RAISED: np.sin(pitch, out=pitch), ADDED: added, **known}
+
+    def _added(
+        self, found: "Levelled", along: FloatArray, pitch: FloatArray, lean: FloatArray
+    ) -> FloatArray:
+        """Return what forces have to be raised by at these angles and this acceleration."""
         # The smoother finds the rest of the lean of each wheel path about this mean.
         expected = -LEVELLED_LEAN * self.constants.lean_expected_rad
-        along = found.share * drive.along * (pitch + lean - found.grade - expected)
-        climb = 0.5 * STANDARD_GRAVITY * (np.square(pitch + lean) - np.square(lean))
-        self.memory["gains"] = found.gains
-        known = {LEVELLED: found.share, LEVELLING_SIGMA: found.sigma_m}
-        return {RAISED: np.sin(pitch), ADDED: along + climb, **known}
+        added = np.empty(pitch.size)
+        for part in in_parts(0, pitch.size):
+            p, q = pitch[part], lean[part]
+            by_road = found.share[part] * along[part] * (p + q - found.grade[part] - expected)
+            climb = 0.5 * STANDARD_GRAVITY * (np.square(p + q) - np.square(q))
+            added[part] = by_road + climb
+        return added
 
     def _drive(self, bins: FloatArray) -> Drive:
         """Return the mean of the wheel paths, without a value where one of them is unknown."""
