@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import floatref
-from floatref.engine.validity_and_sigma import Reach, valid_points
+from floatref.engine.validity_and_sigma import Reach, replace_by_validity
 from floatref.errors import InputError
 from floatref.estimators.road_prior import RoadPrior, RoadPriorSmoother
 from floatref.measures import cross_correlation, high_pass, iri, iri_trace
@@ -174,7 +174,7 @@ def filtered(s, i):
 
 def trusted(s, i):
     interval_m = s.pop("interval_m")
-    return {"valid": valid_points(i["flags"].astype(np.uint8), interval_m, Reach(**s))}
+    return {"valid": replace_by_validity(i["flags"].astype(np.uint8), interval_m, Reach(**s))}
 
 
 STAGES = {

@@ -32,7 +32,7 @@ from floatref.screening.findings import Screening
 from floatref.screening.imu_and_gnss import ImuUse
 from floatref.stages.protocol import Stage
 from floatref.values.block import Axis, Block
-from floatref.values.encoder import check_origins
+from floatref.values.encoder.plausible_distance import check_origins
 from floatref.values.profile import Profile
 from floatref.values.recording import Recording, check_interval
 

@@ -14,7 +14,7 @@ from floatref.screening.second_sensor.doubts import Doubt
 from floatref.stages.signals import DISTANCE
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import ChannelId
-from floatref.values.encoder_direction import MOST, ROLLS_BACK_M, stretches_behind
+from floatref.values.encoder.direction import MOST, ROLLS_BACK_M, stretches_behind
 from floatref.values.recording import Channel, Recording
 
 BEFORE_S = 0.5

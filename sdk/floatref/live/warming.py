@@ -19,7 +19,7 @@ from floatref.live.following import Following, Order
 from floatref.values.arrays import FloatArray, frozen
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
 from floatref.values.clock import UniformClock
-from floatref.values.encoder import DISTANCES
+from floatref.values.encoder.plausible_distance import DISTANCES
 from floatref.values.needs import VERTICAL_FORCES
 
 SPEED_MPS, CHANGE = 16.0, 4.0

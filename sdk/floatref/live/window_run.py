@@ -21,7 +21,7 @@ from floatref.live.joints import WindowPoints
 from floatref.live.window_plan import COMPARED, Cut, compare
 from floatref.screening.damage.encoder_damage import LEAP
 from floatref.values.arrays import FloatArray, IndexArray, frozen
-from floatref.values.encoder import FASTEST_MPS
+from floatref.values.encoder.plausible_distance import FASTEST_MPS
 from floatref.values.recording import Channel, Recording, StampedClock
 
 OWN_RECORD = ("architecture", "floatref", "numpy")

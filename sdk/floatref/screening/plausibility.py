@@ -8,7 +8,7 @@ from floatref.errors import InputError
 from floatref.screening.second_sources import SECOND_DISTANCES, check_second_sources
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY, ChannelId
-from floatref.values.encoder import check_distance
+from floatref.values.encoder.plausible_distance import check_distance
 from floatref.values.needs import DISTANCE, HEIGHT, VERTICAL_FORCES, Needs, nominal_needs
 from floatref.values.recording import Channel, Recording
 from floatref.values.scan import Summary

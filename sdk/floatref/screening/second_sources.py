@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from floatref.errors import InputError
-from floatref.values.encoder import FASTEST_MPS
-from floatref.values.encoder_direction import check_direction
+from floatref.values.encoder.direction import check_direction
+from floatref.values.encoder.plausible_distance import FASTEST_MPS
 from floatref.values.recording import Channel, Recording
 from floatref.values.scanning import first_where
 

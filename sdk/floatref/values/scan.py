@@ -31,7 +31,7 @@ class Scan:
         edges: index of the first sample of each part, and the number of all, shape (k + 1,).
         missing: how many samples are missing, shape (k,), as all that follows.
         total: sum of the others.
-        least: the smallest of them, infinite if there is none.
+        least: the smallest of them, infinite without any.
         greatest: the largest, likewise.
         fall: the steepest step down between neighbours, of which the last are `REACH` samples
             behind the part, 0 or less.
@@ -112,7 +112,7 @@ def _levels(part: FloatArray) -> tuple[int, float, float, float]:
 
 
 def _steps(part: FloatArray, room: FloatArray) -> tuple[float, float]:
-    """Return the steepest steps down and up, 0 where there is none."""
+    """Return the steepest steps down and up, 0 without any."""
     with np.errstate(over="ignore", invalid="ignore"):
         steps = np.subtract(part[1:], part[:-1], out=room[: part.size - 1])
     return (

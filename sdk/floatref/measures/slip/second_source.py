@@ -7,7 +7,7 @@ import numpy as np
 from floatref.measures.slip.encoder_motion import SMOOTHED_S, STEP_S, Motion, derivatives
 from floatref.values.arrays import FloatArray
 from floatref.values.channels import STANDARD_GRAVITY
-from floatref.values.encoder import FASTEST_MPS
+from floatref.values.encoder.plausible_distance import FASTEST_MPS
 from floatref.values.recording import Channel, Recording
 
 SOURCES = "optical_distance", "gnss_speed"

@@ -7,7 +7,7 @@ from floatref.screening.damage.damaged_samples import NONE, Damage, describe_dam
 from floatref.screening.damage.encoder_path import EncoderPath
 from floatref.values.arrays import FloatArray, IndexArray, Records
 from floatref.values.channels import STANDARD_GRAVITY
-from floatref.values.encoder import FASTEST_MPS
+from floatref.values.encoder.plausible_distance import FASTEST_MPS
 from floatref.values.recording import Channel
 
 SOUND, SILENT, LEAPT, FAST, SLOW, STALLED = range(6)

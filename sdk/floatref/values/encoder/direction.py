@@ -74,7 +74,7 @@ def forward_chunks(channel: Channel) -> Iterator[tuple[int, FloatArray]]:
 
 
 def _only_grows(channel: Channel) -> bool:
-    """Return whether no sample is missing or below the one before: then none is read again."""
+    """Return whether every sample is there and not below the one before: then no reading is due."""
     return not (channel.scan.missing.any() or channel.scan.fall.any())
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from floatref.errors import InputError
 from floatref.values.arrays import FloatArray
-from floatref.values.encoder_direction import MOST, check_direction, forward_chunks
+from floatref.values.encoder.direction import MOST, check_direction, forward_chunks
 from floatref.values.profile import FARTHEST_M
 from floatref.values.recording import Channel
 from floatref.values.scan import Summary

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.values import scanning
 from floatref.values.clock import UniformClock
-from floatref.values.encoder_direction import (
+from floatref.values.encoder.direction import (
     ROLLS_BACK_M,
     check_direction,
     forward_chunks,

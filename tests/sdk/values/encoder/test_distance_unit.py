@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.encoder import FASTEST_MPS, SLOWEST_MPS, check_distance
+from floatref.values.encoder.plausible_distance import FASTEST_MPS, SLOWEST_MPS, check_distance
 from floatref.values.recording import Channel, Clock
 
 INTERVAL_M = 0.001

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from floatref.errors import InputError
 from floatref.values import scanning
 from floatref.values.clock import StampedClock, UniformClock
-from floatref.values.encoder import DISTANCES, check_distance, check_origins
-from floatref.values.encoder_direction import stretches_behind
+from floatref.values.encoder.direction import stretches_behind
+from floatref.values.encoder.plausible_distance import DISTANCES, check_distance, check_origins
 from floatref.values.recording import Channel, Clock
 
 RATE = 1000.0
