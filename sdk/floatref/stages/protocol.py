@@ -52,8 +52,8 @@ class Declared:
 class Stage(ABC):
     """Base of all stages: it checks the order of calls; a stage defines the work of each.
 
-    A subclass keeps all that changes in ``self.memory``, a flat dictionary of arrays and
-    numbers, so that state and restore need no code of its own.
+    A subclass keeps all that changes in ``self.memory``, a dictionary of what a deep copy copies:
+    arrays, numbers, and objects of these. So state and restore need no code of its own.
     """
 
     direction: ClassVar[Direction] = Direction.FORWARD

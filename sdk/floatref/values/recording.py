@@ -49,7 +49,10 @@ class Channel:
         track: str | None = None,
         unit: str | None = None,
     ) -> "Channel":
-        """Return a channel; InputError for an unknown name, a wrong unit or infinite samples."""
+        """Return a channel; InputError for an unknown name, a wrong unit or infinite samples.
+
+        Do not change ``values`` afterwards: what is found of them is kept.
+        """
         channel = cls(ChannelId(name, track), frozen(values), clock)
         check_unit(channel.id, channel.unit if unit is None else unit)
         return channel

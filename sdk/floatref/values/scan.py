@@ -9,7 +9,7 @@ from floatref.values import scanning
 from floatref.values.arrays import BoolArray, FloatArray, IndexArray, release
 
 REACH = 2
-"""Samples of the next part in which steps of a part are sought: a spike needs both neighbours."""
+"""Samples of the next part in which steps of a part are sought, as those that look closer do."""
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,8 @@ class Scan:
         total: sum of the others.
         least: the smallest of them, infinite without any.
         greatest: the largest, likewise.
-        fall: the steepest step down between neighbours, of which the last are `REACH` samples
-            behind the part, 0 or less.
+        fall: the steepest step down between neighbours, in the part and the `REACH` samples behind
+            it, 0 or less.
         rise: the steepest step up there, 0 or more.
     """
 
@@ -65,13 +65,16 @@ class Scan:
         if missing == count:
             return Summary(count, missing, np.nan, np.nan, np.nan)
         with np.errstate(over="ignore", invalid="ignore"):
-            mean = float(self.total.sum()) / (count - missing)
+            # One part after the other, as they come.
+            mean = float(np.cumsum(self.total)[-1]) / (count - missing)
         return Summary(count, missing, mean, *self.extremes)
 
     @property
     def extremes(self) -> tuple[float, float]:
         """The smallest and the largest of the samples that are not missing; infinite without."""
-        return float(self.least.min(initial=np.inf)), float(self.greatest.max(initial=-np.inf))
+        # 0 for -0, which messages would show.
+        least, greatest = self.least.min(initial=np.inf), self.greatest.max(initial=-np.inf)
+        return float(least) + 0.0, float(greatest) + 0.0
 
     @property
     def largest(self) -> float:

@@ -75,7 +75,9 @@ class BinsAhead:
         # The line through a sample may begin at the middle of the bin before.
         behind = (first - self.begin) // self.every - 1
         if any(behind > bins.size // 2 for bins in self.found.values()):
-            self.found = {name: bins[behind:].copy() for name, bins in self.found.items()}
+            # One by one, so that no more than one of them is there twice.
+            for name in self.found:
+                self.found[name] = self.found[name][behind:].copy()
             self.begin += behind * self.every
 
 

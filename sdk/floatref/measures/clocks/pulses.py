@@ -118,11 +118,13 @@ def _typical(level: FloatArray, counts: IndexArray, where: np.ndarray) -> float:
 def _range(values: FloatArray) -> tuple[float, float, float]:
     """Return lowest and highest sample, and the standard deviation of the noise."""
     lowest, highest, counts = np.inf, -np.inf, np.zeros(1 << 16, np.int64)
-    for _, chunk in chunks(values, overlap=1):
-        known = chunk[np.isfinite(chunk)]
+    last = np.empty(0)
+    for _, chunk in chunks(values):
+        known = np.concatenate([last, chunk[np.isfinite(chunk)]])
         if known.size:
             lowest, highest = min(lowest, known.min()), max(highest, known.max())
-        counts += _steps_by_size(chunk)
+        counts += _steps_by_size(known)
+        last = known[-1:]
     if not highest > lowest:
         found = f"all samples are {lowest:g}" if highest == lowest else "all samples are missing"
         raise InputError(f"{found}; looked for {_SOUGHT}")
@@ -130,15 +132,14 @@ def _range(values: FloatArray) -> tuple[float, float, float]:
     return float(lowest), float(highest), _median_size(counts) / 0.954
 
 
-def _steps_by_size(chunk: FloatArray) -> IndexArray:
-    """Count the steps of ``chunk`` by the leading 16 bits of their size, shape (65536,).
+def _steps_by_size(known: FloatArray) -> IndexArray:
+    """Count the steps of ``known`` by the leading 16 bits of their size, shape (65536,).
 
     These are its sign, its power of two, and sixteenths of that. Counts of pieces add up, so that
     their median does not depend on where the pieces end.
     """
-    with np.errstate(invalid="ignore", over="ignore"):
-        steps = np.abs(np.diff(chunk))
-    sizes = steps[np.isfinite(steps)].view(np.int64) >> 48
+    with np.errstate(over="ignore"):
+        sizes = np.abs(np.diff(known)).view(np.int64) >> 48
     return np.bincount(sizes, minlength=1 << 16)
 
 

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.sdk.estimators.road_slope.short_runs import at_speed
 
+from floatref.estimators.laser_place import bins
 from floatref.estimators.road_slope.constants import Places, SlopeModel
 from floatref.estimators.road_slope.gauss_newton import Fit, fit
 from floatref.estimators.road_slope.layout import GLOBALS
@@ -91,6 +92,35 @@ def test_between_stretches_values_are_bent_to_meet_what_is_known(
     np.testing.assert_allclose(held, np.full(8, inside), atol=1e-12)
     nothing = Levelled(np.zeros(8), *np.zeros((4, 8)), [])
     np.testing.assert_array_equal(nothing.hold(values, np.full(8, outside)), np.full(8, outside))
+
+
+@given(
+    share=st.lists(st.sampled_from([0.0, 0.0, 0.5, 1.0]), min_size=1, max_size=60),
+    part=st.integers(1, 20),
+    seed=st.integers(0, 2**32),
+)
+@settings(deadline=None)
+def test_the_parts_of_a_run_change_no_bit_of_what_is_held(share, part, seed) -> None:
+    values, outside = np.random.default_rng(seed).normal(size=(2, len(share)))
+    known = np.flatnonzero(share)
+    expected = outside
+    if known.size:
+        off = np.interp(np.arange(len(share)), known, values[known] - outside[known])
+        expected = outside + off
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bins, "PART", part)
+        held = Levelled(np.array(share), *np.zeros((4, len(share))), []).hold(values, outside)
+    np.testing.assert_array_equal(held, expected)
+
+
+@pytest.mark.parametrize("part", [1999, 64])
+def test_the_parts_of_a_run_change_no_bit_of_what_is_found(part, monkeypatch) -> None:
+    drive = drive_over_bumps(1)
+    whole = Levelled.of(drive, PLACES, SlopeModel(), 30.0)
+    monkeypatch.setattr(bins, "PART", part)
+    found = Levelled.of(drive, PLACES, SlopeModel(), 30.0)
+    for name in ("share", "pitch", "lean", "grade", "sigma_m"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(whole, name))
 
 
 @pytest.mark.slow

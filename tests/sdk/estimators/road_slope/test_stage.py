@@ -20,6 +20,7 @@ from tests.sdk.estimators.road_slope.drawn_stops import (
 )
 
 from floatref.errors import InputError
+from floatref.estimators.laser_place import bins
 from floatref.estimators.road_prior import RoadPrior
 from floatref.estimators.road_slope import LevelByRoad, levelled
 from floatref.values.block import Axis, Block, Header
@@ -70,6 +71,14 @@ def test_a_stop_on_a_hump_reads_what_a_level_accelerometer_would(seed) -> None:
     assert where.mean() > 0.5
     assert np.std(after) < 0.2 * np.std(before)
     assert 0.0 < out[SIGMA][where].min() <= out[SIGMA][where].max() < 0.02
+
+
+def test_the_parts_of_a_run_change_no_bit(monkeypatch) -> None:
+    stop, _, whole = levelled_stop(0)
+    monkeypatch.setattr(bins, "PART", 97)
+    found = pass_through(LevelByRoad(LEVEL), stop, stop.block())
+    for channel in (FORCE, SHARE, SIGMA):
+        np.testing.assert_array_equal(found[channel], whole[channel])
 
 
 def test_it_learns_how_much_the_body_pitches() -> None:

@@ -126,6 +126,23 @@ def test_the_size_of_the_pieces_changes_nothing(seed: int, chunk: int) -> None:
     assert whole.size == edges.size
 
 
+@pytest.mark.parametrize("kind", [np.float32, np.int16, np.uint8])
+@pytest.mark.parametrize("known", [1.0, 0.6])
+def test_numbers_of_any_kind_are_those_in_double_precision(kind: type, known: float) -> None:
+    """As a recorder of few bits writes them, with samples missing anywhere."""
+    times, rng = np.arange(4000) / RATE, np.random.default_rng()
+    signal = 20.0 + 200.0 * (times % 0.5 > 0.4) + 2.0 * rng.normal(size=times.size)
+    signal, seen = np.rint(signal).astype(kind), rng.uniform(size=times.size) < known
+    if np.issubdtype(kind, np.integer):
+        seen[:] = True
+    else:
+        signal[~seen] = np.nan
+    found, expected = pulse_times(times, signal), pulse_times(times, signal.astype(np.float64))
+    # Single precision has 24 bits, of a step that takes a sample.
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-4 / RATE)
+    assert pulse_levels(signal) == pytest.approx((20.0, 220.0), abs=3.0)
+
+
 @pytest.mark.parametrize(
     ("values", "said"),
     [
